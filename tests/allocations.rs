@@ -6,7 +6,7 @@ use allocation_counter::measure;
 use mms_exact::gallery::find;
 use mms_gallery::axis_aligned_3d;
 use mms_mechanics::Output;
-use mms_program::block::{BlockMode, Inputs, Outputs, Plan, Prepared, ScratchPool};
+use mms_program::block::{BlockMode, BlockPlan, Inputs, Outputs, Prepared, ScratchPool};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Symbol;
 use mms_symbolic::sorted::SortedMap;
@@ -47,24 +47,29 @@ fn no_evaluation_in_blocks_allocates(points: &[[f64; 3]], rows: &mut [[f64; 3]])
     let entry = find("axis_aligned_3d").expect("a field of the gallery");
     let compiled = entry.compile().expect("a right field");
     let parameters = compiled.parameters::<f64>(&SortedMap::new());
-    let plan =
-        Plan::new(&compiled.program, &[Output::Quantity(Quantity::BodyForce)], Output::is_quantity);
+    let plan = BlockPlan::new(
+        &compiled.program,
+        &[Output::Quantity(Quantity::BodyForce)],
+        Output::is_quantity,
+    );
     let mut prepared = Prepared::new(Arc::new(plan), BlockMode::fused(), &parameters);
     let pool = ScratchPool::default();
     let mut evaluate = |prepared: &Prepared<f64>, time: f64, count: usize| {
-        let mut bring = |start: usize, inputs: &mut Inputs<'_, f64>| {
+        let mut write_inputs = |start: usize, inputs: &mut Inputs<'_, f64>| {
             for (symbol, column) in inputs.columns() {
                 let Symbol::Coordinate(axis) = symbol else { unreachable!("positions alone") };
                 column.iter_mut().zip(&points[start..]).for_each(|(to, point)| *to = point[axis]);
             }
         };
-        let mut take = |start: usize, outputs: &Outputs<'_, f64>| {
+        let mut read_outputs = |start: usize, outputs: &Outputs<'_, f64>| {
             for (axis, component) in outputs.components(0).enumerate() {
                 component
                     .write(rows[start..start + outputs.count()].iter_mut().map(|it| &mut it[axis]));
             }
         };
-        pool.with(|scratch| prepared.run(scratch, time, count, &mut bring, &mut take));
+        pool.with(|scratch| {
+            prepared.run(scratch, time, count, &mut write_inputs, &mut read_outputs)
+        });
         rows[0][0]
     };
     let first = evaluate(&prepared, 0.01, 1);

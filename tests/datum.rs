@@ -8,7 +8,7 @@ use mms_mechanics::{Output, Program};
 use mms_program::interpret::{Interpreter, Point};
 use mms_spec::quantity::Quantity;
 use mms_spec::syntax;
-use mms_spec::syntax::{Ast, Kind, Operator};
+use mms_spec::syntax::{Ast, NodeKind, Operator};
 use mms_symbolic::expr::print::Names;
 use mms_symbolic::sorted::{SortedMap, SortedSet};
 
@@ -24,10 +24,10 @@ fn bar() -> Compiled {
 /// The nodes in their order, which is postfix.
 fn postfix(ast: &Ast) -> String {
     let shown = ast.nodes.iter().map(|node| match &node.kind {
-        Kind::Number(number) => number.to_string(),
-        Kind::Name(name) => name.clone(),
-        Kind::Negate(_) => "negate".into(),
-        Kind::Binary(operator, ..) => match operator {
+        NodeKind::Number(number) => number.to_string(),
+        NodeKind::Name(name) => name.clone(),
+        NodeKind::Negate(_) => "negate".into(),
+        NodeKind::Binary(operator, ..) => match operator {
             Operator::Add => "+",
             Operator::Subtract => "-",
             Operator::Multiply => "*",
@@ -35,7 +35,7 @@ fn postfix(ast: &Ast) -> String {
             Operator::Power => "^",
         }
         .into(),
-        Kind::Call { name, .. } => format!("{}()", name.value),
+        NodeKind::Call { name, .. } => format!("{}()", name.value),
     });
     shown.collect::<Vec<_>>().join(" ")
 }

@@ -8,14 +8,14 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use mms_analysis::visibility::{Status, Term, Visibility};
-use mms_codegen::certify::closed_form::{Finding, compare};
+use mms_codegen::certify::closed_form::{ClosedFormVerdict, compare};
 use mms_codegen::{Compiled, Options};
 use mms_interpreted::Interpretable;
 use mms_mechanics::Output;
-use mms_mechanics::invariant::Kind;
+use mms_mechanics::invariant::Invariants;
 use mms_mechanics::sample::Sample;
 use mms_program::interpret::{Interpreter, Point};
-use mms_runtime::convergence::{Expected, TOLERANCE, Verdict};
+use mms_runtime::convergence::{ExpectedOrder, TOLERANCE, Verdict};
 use mms_runtime::math::Scalar as _;
 use mms_runtime::scene::{Scene, Solvable};
 use mms_runtime::study::judge;
@@ -241,7 +241,7 @@ fn modulus<K: Kernel>() -> f64 {
 fn carriers<K: Kernel>(deformation: &[f64], jacobian: f64) -> (Vec<f64>, f64) {
     let dimension = rows::<K>();
     match compiled(K::NAME).model.kind {
-        Kind::SmallStrain => {
+        Invariants::SmallStrain => {
             let unit = |k: usize| f64::from(u8::from(k / dimension == k % dimension));
             ((0..dimension * dimension).map(unit).collect(), 1.0)
         }
@@ -482,7 +482,7 @@ fn are_same<T: PartialOrd>(found: &[T], expected: &[T], is_late: bool) -> bool {
 /// Every `[[check]]` of the file, in arbitrary precision.
 fn closed_forms<K: Kernel>() {
     for comparison in compare(compiled(K::NAME)) {
-        assert!(matches!(comparison.finding, Finding::Agrees), "{comparison:?}");
+        assert!(matches!(comparison.finding, ClosedFormVerdict::Agrees), "{comparison:?}");
     }
 }
 
@@ -521,7 +521,7 @@ fn studies<K: Kernel>() {
             levels(scene::<f64>(K::NAME, study), study, &method)
         };
         let tolerance = study.tolerance.unwrap_or(TOLERANCE);
-        let judgement = judge(&levels, Expected::new(study.order, tolerance));
+        let judgement = judge(&levels, ExpectedOrder::new(study.order, tolerance));
         assert_eq!(judgement.verdict(), Verdict::Pass, "{judgement:?}\n{levels:#?}");
     }
 }

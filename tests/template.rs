@@ -1,7 +1,7 @@
 //! The text of a new field file.
 
 use mms_analysis::visibility::{Term, Visibility};
-use mms_codegen::certify::closed_form::{Comparison, Finding, compare};
+use mms_codegen::certify::closed_form::{ClosedFormVerdict, Comparison, compare};
 use mms_codegen::compile::Failure;
 use mms_codegen::materials::MATERIALS;
 use mms_codegen::{Compiled, compile};
@@ -87,7 +87,10 @@ fn every_text_compiles_and_its_closed_forms_hold() {
         let expected = if compiled.material.name == NEO_HOOKEAN { 2 } else { 1 };
         assert_eq!(comparisons.len(), expected, "{text}");
         for comparison in comparisons {
-            assert!(matches!(comparison.finding, Finding::Agrees), "{comparison:?}\n{text}");
+            assert!(
+                matches!(comparison.finding, ClosedFormVerdict::Agrees),
+                "{comparison:?}\n{text}"
+            );
         }
     }
 }
@@ -103,7 +106,8 @@ fn every_example_works_when_it_is_uncommented() {
         for study in &field.studies {
             assert!(study.precision.is_some() && study.form.is_some(), "{whole}");
         }
-        let agrees = |comparison: &Comparison| matches!(comparison.finding, Finding::Agrees);
+        let agrees =
+            |comparison: &Comparison| matches!(comparison.finding, ClosedFormVerdict::Agrees);
         assert!(compare(&compiled).iter().all(agrees));
     }
 }

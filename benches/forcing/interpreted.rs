@@ -6,7 +6,7 @@ use std::sync::Arc;
 use mms_codegen::Compiled;
 use mms_codegen::compile;
 use mms_mechanics::Output;
-use mms_program::block::{BlockMode, Blockwise, Inputs, Outputs, Plan, Prepared, Scratch};
+use mms_program::block::{BlockMode, BlockPlan, Blockwise, Inputs, Outputs, Prepared, Scratch};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Symbol;
 
@@ -26,19 +26,19 @@ struct Interpreted<T: Blockwise> {
 impl<T: Blockwise> Interpreted<T> {
     fn evaluate(&mut self) {
         let Interpreted { prepared, scratch, time, points, out, .. } = self;
-        let mut bring = |start: usize, inputs: &mut Inputs<'_, T>| {
+        let mut write_inputs = |start: usize, inputs: &mut Inputs<'_, T>| {
             for (symbol, column) in inputs.columns() {
                 if let Symbol::Coordinate(axis) = symbol {
                     column.copy_from_slice(&points[axis][start..start + column.len()]);
                 }
             }
         };
-        let mut take = |start: usize, outputs: &Outputs<'_, T>| {
+        let mut read_outputs = |start: usize, outputs: &Outputs<'_, T>| {
             for (column, component) in out.iter_mut().zip(outputs.components(0)) {
                 component.write(column[start..start + outputs.count()].iter_mut());
             }
         };
-        prepared.run(scratch, *time, COUNT, &mut bring, &mut take);
+        prepared.run(scratch, *time, COUNT, &mut write_inputs, &mut read_outputs);
     }
 }
 
@@ -67,7 +67,7 @@ fn contenders_in<T: Blockwise + Into<f64> + 'static>(
     case: &Case,
     precision: &'static str,
 ) -> Vec<Box<dyn Contender>> {
-    let plan = Arc::new(Plan::new(
+    let plan = Arc::new(BlockPlan::new(
         &compiled.program,
         &[Output::Quantity(Quantity::BodyForce)],
         Output::is_quantity,

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use mms_codegen::{Options, Selection};
 use mms_exact::gallery::{self, Entry};
-use mms_runtime::convergence::{Expected, TOLERANCE};
+use mms_runtime::convergence::{ExpectedOrder, TOLERANCE};
 use mms_runtime::scene::Scene;
 use mms_runtime::study::{Watch, differences, judge, orders};
 use mms_spec::twin::Twin;
@@ -75,7 +75,7 @@ fn line(row: &Row) -> Result<String, Box<dyn Error>> {
     for &cells in row.levels {
         levels.push(scene.run_level(&row.method()?, &cells.into(), &mut ())?);
     }
-    let judgement = judge(&levels, Expected::new(2.0, TOLERANCE.max(row.tolerance)));
+    let judgement = judge(&levels, ExpectedOrder::new(2.0, TOLERANCE.max(row.tolerance)));
     let finest = levels.last().and_then(|level| level.errors.as_ref().ok());
     let observed = |norm: fn(&mms_runtime::study::Orders) -> Option<f64>| {
         words(levels.windows(2).map(|pair| norm(&orders(&pair[0], &pair[1]))))

@@ -84,7 +84,7 @@ struct Contraction {
 }
 
 /// The result of a search in a tile.
-enum Found {
+enum TileSolution {
     Nothing,
     One(Vec<f64>),
     Undecided,
@@ -115,15 +115,15 @@ impl<'a> Inverse<'a> {
         let (mut found, mut halved) = (Vec::<Vec<f64>>::new(), 0);
         while let Some(tile) = open.pop() {
             match tile.solve(&mut self.motion, x) {
-                Found::Nothing => {}
-                Found::One(reference) => {
+                TileSolution::Nothing => {}
+                TileSolution::One(reference) => {
                     let near = tile.reach(rounding, x);
                     found.extend(self.in_body(reference, near).filter(|it| is_new(&found, it)));
                 }
-                Found::Undecided if halved == MOST_HALVED => {
+                TileSolution::Undecided if halved == MOST_HALVED => {
                     return Err(Unplaced::Undecided(middle(&tile.sides)));
                 }
-                Found::Undecided => {
+                TileSolution::Undecided => {
                     halved += 1;
                     let halves = tile.halves().map(|sides| Tile::new(&mut self.motion, sides));
                     open.extend(halves.into_iter().filter(|half| half.may_hold(x)));
@@ -279,8 +279,8 @@ impl Tile {
     }
 
     /// The solution in the tile and its margin, if there is one.
-    fn solve(&self, motion: &mut Instant<'_>, x: &[f64]) -> Found {
-        let Some(contraction) = &self.contraction else { return Found::Undecided };
+    fn solve(&self, motion: &mut Instant<'_>, x: &[f64]) -> TileSolution {
+        let Some(contraction) = &self.contraction else { return TileSolution::Undecided };
         let [at_middle, _] = motion.over(&exact(&middle(&self.sides)));
         let step = contraction.step(&at_middle, x);
         let offset = |side: &Interval| *side - Interval::from_f64(side.middle());
@@ -290,7 +290,7 @@ impl Tile {
             side.lower() <= moved.upper() && moved.lower() <= side.upper()
         };
         if !offsets.iter().zip(&moved).all(meets) {
-            return Found::Nothing;
+            return TileSolution::Nothing;
         }
         let wide: Vec<Interval> = self.sides.iter().map(|side| widened(*side)).collect();
         let start = self.sides.iter().zip(&moved).zip(&wide).map(|((side, moved), wide)| {
@@ -298,8 +298,8 @@ impl Tile {
         });
         let found = newton(motion, x, start.collect(), &wide);
         match found.and_then(|found| contraction.verify(motion, x, &found, &wide)) {
-            Some(found) => Found::One(found),
-            None => Found::Undecided,
+            Some(found) => TileSolution::One(found),
+            None => TileSolution::Undecided,
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use mms_mechanics::{Output, Program};
-use mms_program::block::{BlockMode, Blockwise, Plan, Prepared, Scratch};
+use mms_program::block::{BlockMode, BlockPlan, Blockwise, Prepared, Scratch};
 use mms_spec::quantity::Quantity;
 
 /// The number of points that are evaluated together.
@@ -16,7 +16,7 @@ pub struct Evaluator(Vec<(Quantity, Asked)>);
 /// The data for one quantity.
 #[derive(Debug, Default)]
 struct Asked {
-    plan: OnceLock<Arc<Plan>>,
+    plan: OnceLock<Arc<BlockPlan>>,
     /// The data of calls that have ended; as many as there were concurrent calls.
     idle: Mutex<Vec<Ready>>,
 }
@@ -52,8 +52,13 @@ impl Evaluator {
         let idle = || asked.idle.lock().unwrap_or_else(PoisonError::into_inner);
         let known = idle().pop();
         let mut ready = known.unwrap_or_else(|| {
-            let plan =
-                || Arc::new(Plan::new(program, &[Output::Quantity(quantity)], Output::is_quantity));
+            let plan = || {
+                Arc::new(BlockPlan::new(
+                    program,
+                    &[Output::Quantity(quantity)],
+                    Output::is_quantity,
+                ))
+            };
             let plan = asked.plan.get_or_init(plan).clone();
             Ready {
                 parameters: parameters.to_vec(),

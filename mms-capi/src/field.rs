@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use mms_codegen::compile::fast_check::FastParameterCheck;
 use mms_codegen::compile_with;
-use mms_codegen::selection::quantity;
+use mms_codegen::selection::compiled_quantity;
 use mms_codegen::{Compiled, Options};
 use mms_mechanics::boundary::Datum;
 use mms_mechanics::{Bound, Output};
@@ -104,7 +104,7 @@ impl Field {
     /// The quantity of a name.
     fn find(&self, name: &str) -> Result<Quantity, Error> {
         let own: Vec<_> = self.compiled.model.own.keys().copied().collect();
-        quantity(&own, name).map_err(|mistake| Error::new(MmsCode::UnknownName, mistake))
+        compiled_quantity(&own, name).map_err(|mistake| Error::new(MmsCode::UnknownName, mistake))
     }
 
     /// The number of components of a quantity.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use mms_codegen::Compiled;
-use mms_codegen::certify::closed_form::{Comparison, Difference, Finding};
+use mms_codegen::certify::closed_form::{ClosedFormVerdict, Comparison, Difference};
 use mms_diagnosis::answer::Ranked;
 use mms_documents::check::{self as documents, ClosedForm};
 use mms_spec::foreign::Foreign;
@@ -22,7 +22,7 @@ impl Compared {
 
     /// Whether every closed form agrees.
     pub fn all_agree(&self) -> bool {
-        self.0.iter().all(|(it, _)| matches!(it.finding, Finding::Agrees))
+        self.0.iter().all(|(it, _)| matches!(it.finding, ClosedFormVerdict::Agrees))
     }
 
     /// The closed forms as parts of a document.
@@ -38,19 +38,19 @@ impl Compared {
             let source = comparison.source.as_ref().map(Foreign::shown);
             let source = source.as_deref().unwrap_or("no source given");
             match &comparison.finding {
-                Finding::Agrees => lines.push(format!(
+                ClosedFormVerdict::Agrees => lines.push(format!(
                     "  check  {quantity} agrees to 1e-20 at {} points ({source})",
                     comparison.points
                 )),
-                Finding::Unmeasured => lines.push(format!(
+                ClosedFormVerdict::Unmeasured => lines.push(format!(
                     "  check  {quantity} was NOT COMPARED: one value takes too long in 77 digits ({source})"
                 )),
-                Finding::Differs(found) => {
+                ClosedFormVerdict::Differs(found) => {
                     lines.push(format!("  check  {quantity} FAILED ({source})"));
                     lines.push(describe(compiled, comparison, found));
                     lines.extend(named.as_ref().map(mistaken::says));
                 }
-                Finding::Undefined { points, first } => {
+                ClosedFormVerdict::Undefined { points, first } => {
                     lines.push(format!(
                         "  check  {quantity} is UNDEFINED at {points} of {} points ({source})",
                         comparison.points
@@ -67,10 +67,10 @@ impl Compared {
 
 fn document(comparison: &Comparison, named: Option<&Ranked>) -> ClosedForm {
     let (status, found, undefined) = match &comparison.finding {
-        Finding::Agrees => ("passed", None, 0),
-        Finding::Differs(found) => ("failed", Some(found), 0),
-        Finding::Undefined { points, first } => ("undefined", Some(first), *points),
-        Finding::Unmeasured => ("unmeasured", None, 0),
+        ClosedFormVerdict::Agrees => ("passed", None, 0),
+        ClosedFormVerdict::Differs(found) => ("failed", Some(found), 0),
+        ClosedFormVerdict::Undefined { points, first } => ("undefined", Some(first), *points),
+        ClosedFormVerdict::Unmeasured => ("unmeasured", None, 0),
     };
     let finite = |number: f64| number.is_finite().then_some(number);
     let difference = found.map(|found| documents::Difference {

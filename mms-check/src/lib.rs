@@ -30,7 +30,7 @@ use self::closed_form::Compared;
 
 /// The options of a check.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Asked {
+pub struct CheckOptions {
     /// Run Newton's method on a static field.
     pub solve: bool,
     /// Write a line for each face and each corner.
@@ -52,7 +52,7 @@ pub struct Report {
 }
 
 /// Checks a compiled field. `path` names its file in the report.
-pub fn check(path: &Foreign, compiled: &Arc<Compiled>, asked: Asked) -> Report {
+pub fn check(path: &Foreign, compiled: &Arc<Compiled>, asked: CheckOptions) -> Report {
     let compared = Compared::of(compiled, compare(compiled));
     let title = format!("{}: {}", path.shown(), compiled.field.title.shown());
     if compiled.field.domain.body.is_nothing() {
@@ -61,7 +61,7 @@ pub fn check(path: &Foreign, compiled: &Arc<Compiled>, asked: Asked) -> Report {
     let gaps = gaps(compiled);
     let mut certificate = certify(compiled);
     let rest = rest::stress(compiled);
-    certificate.spent.extend(unseen(compiled, &rest));
+    certificate.spent.extend(skipped_checks(compiled, &rest));
     let objections = certificate.objections(compiled);
     // A check at no point does not count as passed.
     let stability = judge(compiled);
@@ -179,18 +179,18 @@ fn name_lines(notes: &[String]) -> impl Iterator<Item = String> {
 }
 
 /// The other checks that were skipped, or made at fewer points, because they take too long.
-fn unseen(compiled: &Compiled, rest: &Rest) -> Vec<String> {
-    let mut unseen = Vec::new();
+fn skipped_checks(compiled: &Compiled, rest: &Rest) -> Vec<String> {
+    let mut skipped = Vec::new();
     if undefined::points(compiled) < undefined::POINTS {
-        unseen.push("u as it is written".to_string());
+        skipped.push("u as it is written".to_string());
     }
     if *rest == Rest::Unknown {
-        unseen.push("stress at rest".into());
+        skipped.push("stress at rest".into());
     }
     if !compiled.simplified {
-        unseen.push("the search for short and exact formulas".into());
+        skipped.push("the search for short and exact formulas".into());
     }
-    unseen
+    skipped
 }
 
 /// The line about P at F = I, if P is not 0.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use mms_codegen::Compiled;
-use mms_codegen::certify::closed_form::{Comparison, Finding};
+use mms_codegen::certify::closed_form::{ClosedFormVerdict, Comparison};
 use mms_diagnosis::answer::Ranked;
 use mms_diagnosis::closed_form::ClosedForm;
 use mms_diagnosis::scene::closed_form;
@@ -28,7 +28,9 @@ fn closed_form_of(quantity: Quantity) -> Option<ClosedForm> {
 /// The mistake that each closed form of a field contains, if a hypothesis gives it.
 pub fn named(compiled: &Arc<Compiled>, comparisons: &[Comparison]) -> Vec<Option<Ranked>> {
     let named = |(check, it): (usize, &Comparison)| match it.finding {
-        Finding::Differs(_) => closed_form_of(it.quantity).and_then(|it| of(compiled, check, it)),
+        ClosedFormVerdict::Differs(_) => {
+            closed_form_of(it.quantity).and_then(|it| of(compiled, check, it))
+        }
         _ => None,
     };
     comparisons.iter().enumerate().map(named).collect()

@@ -4,7 +4,7 @@ use mms_codegen::Compiled;
 use mms_codegen::bounds::witness::Witness;
 use mms_codegen::certify::certificate::Certificate;
 use mms_codegen::certify::claims;
-use mms_codegen::certify::computed::{AsComputed, ENOUGH_DIGITS, Finding};
+use mms_codegen::certify::computed::{ComputedProof, ComputedVerdict, ENOUGH_DIGITS};
 use mms_codegen::certify::ellipticity::Ellipticity;
 use mms_codegen::certify::finite::Finite;
 use mms_codegen::certify::rates::Rates;
@@ -41,14 +41,14 @@ pub fn text(compiled: &Compiled, certificate: &Certificate) -> Vec<String> {
         },
     ];
     lines.extend(solid(certificate));
-    lines.push(match certificate.exits.as_slice() {
+    lines.push(match certificate.branch_violations.as_slice() {
         [] => "  proof  u and its terms stay within one analytic branch".into(),
         exits if exits.iter().any(|exit| exit.is_certain) => {
             "  proof  u and its terms LEAVE their analytic branch".into()
         }
         _ => "  proof  u and its terms are UNPROVED to stay within one analytic branch".into(),
     });
-    if single.finding != Finding::NotAsked {
+    if single.finding != ComputedVerdict::NotApplicable {
         lines.push(finite("  proof  in f32 every quantity is finite, too", single));
     }
     let is_static = compiled.model.domain.is_static;
@@ -57,12 +57,12 @@ pub fn text(compiled: &Compiled, certificate: &Certificate) -> Vec<String> {
     for (claim, finding) in &certificate.claims {
         let (face, word) = (claim.face.value.name(), claim.claim.value);
         let found = match finding {
-            claims::Finding::Proved => "proved".to_string(),
-            claims::Finding::Enclosed([lower, upper]) => {
+            claims::ClaimVerdict::Proved => "proved".to_string(),
+            claims::ClaimVerdict::Enclosed([lower, upper]) => {
                 format!("enclosed [{lower:e}, {upper:e}], not proved")
             }
-            claims::Finding::Refuted(_, value) => format!("REFUTED: {value:e} instead of 0"),
-            claims::Finding::Unproved([lower, upper]) => {
+            claims::ClaimVerdict::Refuted(_, value) => format!("REFUTED: {value:e} instead of 0"),
+            claims::ClaimVerdict::Unproved([lower, upper]) => {
                 format!("UNPROVED: enclosed [{lower:e}, {upper:e}]")
             }
         };
@@ -102,20 +102,20 @@ fn solid(certificate: &Certificate) -> Option<String> {
 }
 
 /// The line about finite values in a precision.
-fn finite(proved: &str, computed: &AsComputed) -> String {
+fn finite(proved: &str, computed: &ComputedProof) -> String {
     match &computed.finding {
-        Finding::Proved | Finding::NotAsked => proved.into(),
-        Finding::Fails(quantity, ..) => {
+        ComputedVerdict::Proved | ComputedVerdict::NotApplicable => proved.into(),
+        ComputedVerdict::Fails(quantity, ..) => {
             format!("{proved}: {} is NOT, as computed", quantity.name())
         }
-        Finding::Unproved(quantity, _) => {
+        ComputedVerdict::Unproved(quantity, _) => {
             format!("{proved}: {} is UNPROVED to be, as computed", quantity.name())
         }
     }
 }
 
 /// The remaining digits of an angle that is a sum of places and times.
-fn angles(compiled: &Compiled, computed: &AsComputed) -> Option<String> {
+fn angles(compiled: &Compiled, computed: &ComputedProof) -> Option<String> {
     let (digits, witness) = computed.angles.as_ref()?;
     let count = digits.floor().max(0.0);
     Some(match *digits < ENOUGH_DIGITS {
@@ -177,13 +177,13 @@ fn rounded(value: f64, direction: f64) -> String {
 }
 
 /// A claim with its finding.
-pub fn claim((claim, finding): &(BoundarySpec, claims::Finding)) -> documents::Claim {
+pub fn claim((claim, finding): &(BoundarySpec, claims::ClaimVerdict)) -> documents::Claim {
     let (interval, witness) = match finding {
-        claims::Finding::Proved => (None, None),
-        claims::Finding::Enclosed(interval) | claims::Finding::Unproved(interval) => {
+        claims::ClaimVerdict::Proved => (None, None),
+        claims::ClaimVerdict::Enclosed(interval) | claims::ClaimVerdict::Unproved(interval) => {
             (Some(*interval), None)
         }
-        claims::Finding::Refuted(witness, value) => (None, Some((witness, *value))),
+        claims::ClaimVerdict::Refuted(witness, value) => (None, Some((witness, *value))),
     };
     documents::Claim {
         face: claim.face.value.name().to_string(),
@@ -209,9 +209,9 @@ pub fn document(certificate: &Certificate) -> documents::Certificate {
     documents::Certificate {
         jacobian,
         solid: certificate.solid.iter().all(|(_, sign)| matches!(sign, Sign::Positive(_))),
-        analytic: certificate.exits.is_empty(),
-        finite: certificate.computed[0].finding == Finding::Proved,
-        finite_f32: certificate.computed[1].finding == Finding::Proved,
+        analytic: certificate.branch_violations.is_empty(),
+        finite: certificate.computed[0].finding == ComputedVerdict::Proved,
+        finite_f32: certificate.computed[1].finding == ComputedVerdict::Proved,
         angle_digits,
         angle_digits_f32,
         principal_stretch: rates.map(|it| it.principal_stretch),

@@ -19,7 +19,7 @@ use mms_stability::warnings::list;
 use mms_stability::waves::Waves;
 
 /// Lines for the values below 0 and the least of the others; for all values if `is_full`. `name` is the name of the line.
-fn told<T>(
+fn least_lines<T>(
     all: &[T],
     is_full: bool,
     (name, value): (&str, fn(&T) -> f64),
@@ -50,9 +50,9 @@ pub fn text(
     lines
         .extend(stability.waves.iter().map(|waves| body(waves, &certificate.ellipticity, modulus)));
     let of_face = ("face", (|it| it.least) as fn(&Surface) -> f64);
-    lines.extend(told(&stability.surfaces, is_full, of_face, |it| face(it, modulus)));
+    lines.extend(least_lines(&stability.surfaces, is_full, of_face, |it| face(it, modulus)));
     let of_corner = ("corner", (|it| it.coercivity) as fn(&Corner) -> f64);
-    lines.extend(told(&stability.corners, is_full, of_corner, |it| edge(it, modulus)));
+    lines.extend(least_lines(&stability.corners, is_full, of_corner, |it| edge(it, modulus)));
     lines.extend(stability.growth.iter().map(|growth| match is_static {
         true => equilibrium(growth),
         false => long(growth, stability.is_static),

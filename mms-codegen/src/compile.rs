@@ -16,8 +16,8 @@ use crate::selection::{self, Selection};
 use crate::variation::Variation;
 use mms_mechanics::boundary::Datum;
 use mms_mechanics::face;
-use mms_mechanics::invariant::Kind;
-use mms_mechanics::model::{as_set, parameter_values};
+use mms_mechanics::invariant::Invariants;
+use mms_mechanics::model::{parameter_values, set_expressions};
 use mms_mechanics::resolve::Scope;
 use mms_mechanics::{Derivation, Model, Response, TooLarge, requested, tangent};
 use mms_mechanics::{Output, Program};
@@ -84,7 +84,7 @@ impl Compiled {
     /// The mistake, in one line, if no quantity has the name.
     pub fn quantity(&self, name: &str) -> Result<Quantity, String> {
         let own: Vec<Own> = self.model.own.keys().copied().collect();
-        selection::evaluated(&own, name)
+        selection::any_quantity(&own, name)
     }
 
     /// Whether users may ask for a quantity: a quantity per mass needs a density, which a static field may not have.
@@ -225,7 +225,7 @@ impl Compiled {
     pub fn accepts(&self, set: &SortedMap<usize, Rational>) -> Result<(), Failure> {
         let mut graph = self.graph.clone();
         graph.make_room();
-        let set = as_set(&mut graph, set);
+        let set = set_expressions(&mut graph, set);
         let diagnostics = declared::check(&graph, &self.model, (&self.field, &self.material), &set);
         if diagnostics.is_empty() {
             return Ok(());
@@ -237,7 +237,7 @@ impl Compiled {
     pub fn parameters<T: Number>(&self, set: &SortedMap<usize, Rational>) -> Vec<T> {
         let mut graph = self.graph.clone();
         graph.make_room();
-        let set = as_set(&mut graph, set);
+        let set = set_expressions(&mut graph, set);
         let values = parameter_values(&mut graph, &self.model, &set);
         graph.work().allow(STEPS_OF_SCHEDULE);
         let outputs = values
@@ -268,8 +268,8 @@ impl Compiled {
             _ if quantity == Quantity::Displacement && self.field.is_static() => {
                 "Displacement u(X)."
             }
-            Kind::SmallStrain => quantity.doc_at_small_strain(),
-            Kind::Isotropic | Kind::Fibrous(_) => quantity.doc(),
+            Invariants::SmallStrain => quantity.doc_at_small_strain(),
+            Invariants::Isotropic | Invariants::Fibrous(_) => quantity.doc(),
         }
     }
 

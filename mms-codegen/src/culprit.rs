@@ -8,7 +8,7 @@
 use mms_mechanics::resolve::Scope;
 use mms_spec::source::Span;
 use mms_spec::syntax;
-use mms_spec::syntax::{Ast, Kind, Operator};
+use mms_spec::syntax::{Ast, NodeKind, Operator};
 use mms_spec::{FieldSpec, Formula, RigidSpec, Space};
 use mms_symbolic::expr::{Graph, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
@@ -139,7 +139,7 @@ impl<'a> Trial<'a> {
             .nodes
             .iter()
             .filter_map(|node| match &node.kind {
-                Kind::Name(name) => Some(name.as_str()),
+                NodeKind::Name(name) => Some(name.as_str()),
                 _ => None,
             })
             .collect();
@@ -201,25 +201,25 @@ fn scope(graph: &mut Graph, field: &FieldSpec) -> Scope {
     scope
 }
 
-fn operands(kind: &Kind) -> Vec<usize> {
+fn operands(kind: &NodeKind) -> Vec<usize> {
     match kind {
-        Kind::Number(_) | Kind::Name(_) => Vec::new(),
-        Kind::Negate(operand) => vec![*operand],
-        Kind::Binary(_, left, right) => vec![*left, *right],
-        Kind::Call { arguments, .. } => arguments.clone(),
+        NodeKind::Number(_) | NodeKind::Name(_) => Vec::new(),
+        NodeKind::Negate(operand) => vec![*operand],
+        NodeKind::Binary(_, left, right) => vec![*left, *right],
+        NodeKind::Call { arguments, .. } => arguments.clone(),
     }
 }
 
 /// The operands of a node. A chain such as a*b*c is one product of three: no part of it is to blame for the length of the
 /// chain.
 fn links(ast: &Ast, root: usize) -> Vec<usize> {
-    let Kind::Binary(operator, mut left, right) = ast.nodes[root].kind else {
+    let NodeKind::Binary(operator, mut left, right) = ast.nodes[root].kind else {
         return operands(&ast.nodes[root].kind);
     };
     let is_sum = |operator| matches!(operator, Operator::Add | Operator::Subtract);
     let mut links = vec![right];
     while operator != Operator::Power
-        && let Kind::Binary(inner, further, last) = ast.nodes[left].kind
+        && let NodeKind::Binary(inner, further, last) = ast.nodes[left].kind
         && inner != Operator::Power
         && is_sum(inner) == is_sum(operator)
     {
@@ -244,13 +244,13 @@ fn part(ast: &Ast, root: usize) -> Vec<syntax::Node> {
     let mut nodes = ast.nodes[start..=root].to_vec();
     for node in &mut nodes {
         match &mut node.kind {
-            Kind::Number(_) | Kind::Name(_) => {}
-            Kind::Negate(operand) => *operand -= start,
-            Kind::Binary(_, left, right) => {
+            NodeKind::Number(_) | NodeKind::Name(_) => {}
+            NodeKind::Negate(operand) => *operand -= start,
+            NodeKind::Binary(_, left, right) => {
                 *left -= start;
                 *right -= start;
             }
-            Kind::Call { arguments, .. } => {
+            NodeKind::Call { arguments, .. } => {
                 arguments.iter_mut().for_each(|argument| *argument -= start);
             }
         }

@@ -72,8 +72,8 @@ pub enum Entry {
 /// # Errors
 ///
 /// The mistake, in one line.
-pub fn quantity(own: &[Own], name: &str) -> Result<Quantity, String> {
-    match evaluated(own, name)? {
+pub fn compiled_quantity(own: &[Own], name: &str) -> Result<Quantity, String> {
+    match any_quantity(own, name)? {
         found if found.is_on_request() => Err(format!(
             "the quantity {} is not compiled; `mms eval`, `mms state` and `mms judge` derive it from cauchy_stress, \
              first_piola_kirchhoff or displacement_gradient",
@@ -89,7 +89,7 @@ pub fn quantity(own: &[Own], name: &str) -> Result<Quantity, String> {
 /// # Errors
 ///
 /// The mistake, in one line.
-pub fn evaluated(own: &[Own], name: &str) -> Result<Quantity, String> {
+pub fn any_quantity(own: &[Own], name: &str) -> Result<Quantity, String> {
     Quantity::among(own, name).ok_or_else(|| {
         let known = Quantity::evaluated().map(|quantity| quantity.name());
         let known = known.chain(own.iter().map(|own| own.described().name.as_str()));

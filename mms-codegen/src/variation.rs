@@ -263,5 +263,5 @@ pub fn free_axes(space: Space) -> Range<usize> {
 fn shift(graph: &mut Graph, model: &mut Model, by: Expr) {
     let axes = free_axes(model.space);
     let moved = coordinates(graph, axes.map(|axis| (axis, by)), Graph::sub);
-    model.map_in_space(|exprs| substitute(graph, exprs, &moved));
+    model.map_formulas_of_x(|exprs| substitute(graph, exprs, &moved));
 }

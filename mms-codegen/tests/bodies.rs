@@ -2,7 +2,7 @@
 //! faces agree with geometry and the quantities.
 
 use mms_codegen::certify::certificate::{Certificate, certify};
-use mms_codegen::certify::claims::Finding;
+use mms_codegen::certify::claims::ClaimVerdict;
 use mms_codegen::certify::sign::Sign;
 use mms_codegen::compile::Failure;
 use mms_codegen::{Compiled, compile};
@@ -42,7 +42,7 @@ fn assert_proved(text: &str) -> Certificate {
     for (claim, finding) in &certificate.claims {
         assert_eq!(
             *finding,
-            Finding::Proved,
+            ClaimVerdict::Proved,
             "{}: {}\n{text}",
             claim.face.value.name(),
             claim.claim.value.name()

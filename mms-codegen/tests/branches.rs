@@ -9,7 +9,7 @@ use std::path::Path;
 
 use hunt::Hunt;
 use mms_codegen::certify::certificate::{Certificate, certify};
-use mms_codegen::certify::computed::Finding;
+use mms_codegen::certify::computed::ComputedVerdict;
 use mms_codegen::{Compiled, Options, compile_with};
 use proptest::prelude::*;
 
@@ -65,10 +65,14 @@ fn certified(text: &str) -> (Compiled, Certificate) {
 fn refused_at(case: &Case<'_>, place: &str, is_certain: bool) {
     let text = case.text();
     let (compiled, certificate) = certified(&text);
-    let found: Vec<&str> =
-        certificate.exits.iter().map(|exit| compiled.sources.slice(exit.span)).collect();
+    let found: Vec<&str> = certificate
+        .branch_violations
+        .iter()
+        .map(|exit| compiled.sources.slice(exit.span))
+        .collect();
     assert!(found.contains(&place), "{place}: {found:?}\n{text}");
-    let exit = certificate.exits.iter().find(|it| compiled.sources.slice(it.span) == place);
+    let exit =
+        certificate.branch_violations.iter().find(|it| compiled.sources.slice(it.span) == place);
     assert_eq!(exit.map(|it| it.is_certain), Some(is_certain), "{place}: {exit:?}\n{text}");
     assert!(!certificate.objections(&compiled).is_empty());
 }
@@ -101,7 +105,7 @@ fn a_cut_inside_the_domain_is_refused_where_it_is() {
     let by_let = "[let]\nangle = \"atan2(X - 0.5, -1)\"\nunused = \"atan2(X - 0.7, -1)\"\n";
     let by_let = Case { rest: by_let, ..Case::of(&["0.01*angle"], BOX) };
     refused_at(&by_let, "atan2(X - 0.5, -1)", true);
-    assert_eq!(certified(&by_let.text()).1.exits.len(), 1);
+    assert_eq!(certified(&by_let.text()).1.branch_violations.len(), 1);
 }
 
 #[test]
@@ -138,7 +142,7 @@ fn the_energy_of_a_round_body_is_examined_at_its_own_strain() {
     let cut = Case { material: energy, ..Case::of(&growing, RING) };
     refused_at(&cut, "atan2(J - 1, -1)", true);
     let (_, certificate) = certified(&cut.text());
-    let place = &certificate.exits[0].witness.coordinates;
+    let place = &certificate.branch_violations[0].witness.coordinates;
     let radius = f64::hypot(place[0], place[1]);
     let jacobian = (1.0 + 0.1 * (2.0 * radius - 0.9)) * (1.0 + 0.1 * (radius - 0.9));
     assert!((jacobian - 1.0).abs() < 1e-12, "J = {jacobian} at {place:?}");
@@ -228,9 +232,13 @@ fn what_is_proved_finite_is_computed() {
         let (compiled, certificate) = fault(name);
         let [double, _] = &certificate.computed;
         let is_refused = !certificate.objections(&compiled).is_empty();
-        assert_eq!(is_refused, double.finding != Finding::Proved, "{name}: {certificate:?}");
+        assert_eq!(
+            is_refused,
+            double.finding != ComputedVerdict::Proved,
+            "{name}: {certificate:?}"
+        );
     }
-    assert!(!fault("atan2_cut_1d.toml").1.exits.is_empty());
+    assert!(!fault("atan2_cut_1d.toml").1.branch_violations.is_empty());
 }
 
 #[test]
@@ -240,8 +248,8 @@ fn what_overflows_on_the_way_is_told() {
     let case = Case { material: stiff, ..Case::of(&["0.01*X^2"], BOX) };
     let (compiled, certificate) = certified(&case.text());
     let [double, single] = &certificate.computed;
-    assert_eq!(double.finding, Finding::Proved);
-    assert!(matches!(single.finding, Finding::Fails(..)), "{single:?}");
+    assert_eq!(double.finding, ComputedVerdict::Proved);
+    assert!(matches!(single.finding, ComputedVerdict::Fails(..)), "{single:?}");
     assert!(certificate.objections(&compiled).is_empty());
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use mms_codegen::certify::certificate::{Certificate, certify, wave_speed};
-use mms_codegen::certify::claims::Finding;
+use mms_codegen::certify::claims::ClaimVerdict;
 use mms_codegen::certify::computed;
 use mms_codegen::certify::ellipticity::Ellipticity;
 use mms_codegen::certify::finite::Finite;
@@ -89,7 +89,7 @@ fn honest_fields_are_proved_cheaply_and_sharply() {
             unproved.push(file);
         }
         for (claim, finding) in &certificate.claims {
-            assert_eq!(*finding, Finding::Proved, "{shown}: {}", claim.face.value.name());
+            assert_eq!(*finding, ClaimVerdict::Proved, "{shown}: {}", claim.face.value.name());
         }
         boxes += certificate.boxes;
         if file.starts_with(root.join("../fields")) {
@@ -113,11 +113,11 @@ fn honest_fields_are_computed_in_both_precisions() {
     for (file, _, certificate) in &*HONEST {
         let shown = file.display();
         let [double, single] = &certificate.computed;
-        assert_eq!(double.finding, computed::Finding::Proved, "{shown}");
+        assert_eq!(double.finding, computed::ComputedVerdict::Proved, "{shown}");
         assert!(double.cells <= MOST_CELLS, "{shown}: {}", double.cells);
         // A J of 1e-6 is about as large as the rounding of f32.
         if !file.ends_with("sliver_2d.toml") {
-            assert_eq!(single.finding, computed::Finding::Proved, "{shown}");
+            assert_eq!(single.finding, computed::ComputedVerdict::Proved, "{shown}");
             assert!(single.cells <= MOST_CELLS, "{shown}: {}", single.cells);
         }
     }
@@ -477,7 +477,7 @@ fn a_graph_that_is_full_proves_nothing() {
         match judged(&honest, max_nodes) {
             Ok(certificate) => {
                 let proofs =
-                    certificate.claims.iter().all(|(_, finding)| *finding == Finding::Proved);
+                    certificate.claims.iter().all(|(_, finding)| *finding == ClaimVerdict::Proved);
                 assert!(proofs, "{max_nodes}: {certificate:?}");
                 assert_eq!(certificate.jacobian, whole.jacobian);
                 proved += 1;

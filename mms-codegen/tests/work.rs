@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use cpu_time::ThreadTime;
 use mms_codegen::certify::certificate::{Certificate, certify};
-use mms_codegen::certify::closed_form::{Comparison, Finding, compare};
+use mms_codegen::certify::closed_form::{ClosedFormVerdict, Comparison, compare};
 use mms_codegen::certify::finite::Finite;
 use mms_codegen::certify::rest;
 use mms_codegen::certify::rest::Rest;
@@ -98,8 +98,8 @@ fn functions_of_tiny_numbers_end() {
     for ((_, _, certificate), is_proved) in checked.iter().zip([true, true, false]) {
         assert_eq!(certificate.spent, ["what is computed"]);
         let [double, single] = &certificate.computed;
-        assert_eq!(double.finding == computed::Finding::Proved, is_proved, "{double:?}");
-        assert!(matches!(single.finding, computed::Finding::Unproved(..)), "{single:?}");
+        assert_eq!(double.finding == computed::ComputedVerdict::Proved, is_proved, "{double:?}");
+        assert!(matches!(single.finding, computed::ComputedVerdict::Unproved(..)), "{single:?}");
         assert!(double.cells + single.cells < 2000, "{} {}", double.cells, single.cells);
     }
 }
@@ -147,7 +147,8 @@ fn many_ranges_and_closed_forms_end() {
     let checks =
         lines(count, |k| format!("[[check]]\nquantity = \"u\"\nequals = [\"a*sin({k}*X)\"]"));
     let (_, comparisons, _) = check(&field("a*sin(X)", "", "", &checks)).expect("a field");
-    let looked_at = |it: &Comparison| it.points > 0 || matches!(it.finding, Finding::Unmeasured);
+    let looked_at =
+        |it: &Comparison| it.points > 0 || matches!(it.finding, ClosedFormVerdict::Unmeasured);
     assert!(comparisons.iter().all(looked_at));
 }
 
@@ -164,7 +165,11 @@ fn a_closed_form_that_takes_too_long_is_not_compared() {
     let form = format!("[[check]]\nquantity = \"u\"\nequals = [\"{}\"]\n", terms.join(" + "));
     let checked = check(&field("a*X", "", "", &form.repeat(2)));
     let (_, comparisons, _) = checked.unwrap_or_else(|failure| panic!("{failure}"));
-    assert!(matches!(comparisons[0].finding, Finding::Unmeasured), "{:?}", comparisons[0].finding);
+    assert!(
+        matches!(comparisons[0].finding, ClosedFormVerdict::Unmeasured),
+        "{:?}",
+        comparisons[0].finding
+    );
     assert_eq!(comparisons[0].points, 0);
 }
 
@@ -191,11 +196,15 @@ fn a_proof_that_is_stopped_proves_nothing_and_refutes_nothing() {
         let certificate = certify(&compiled);
         assert!(matches!(certificate.jacobian, Sign::Unproved(..)), "{name}");
         assert!(matches!(certificate.finite, Finite::Unproved(..)), "{name}");
-        assert!(!certificate.exits.is_empty(), "{name}");
-        assert!(certificate.exits.iter().all(|exit| !exit.is_certain), "{name}");
-        assert_eq!(certificate.computed[0].finding, computed::Finding::NotAsked, "{name}");
+        assert!(!certificate.branch_violations.is_empty(), "{name}");
+        assert!(certificate.branch_violations.iter().all(|exit| !exit.is_certain), "{name}");
+        assert_eq!(
+            certificate.computed[0].finding,
+            computed::ComputedVerdict::NotApplicable,
+            "{name}"
+        );
         for (claim, finding) in &certificate.claims {
-            let is_open = matches!(finding, claims::Finding::Unproved(_));
+            let is_open = matches!(finding, claims::ClaimVerdict::Unproved(_));
             assert!(is_open, "{name}: {claim:?} {finding:?}");
         }
         assert!(rest::stress(&compiled).stress().is_none(), "{name}");

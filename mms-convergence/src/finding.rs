@@ -4,14 +4,14 @@ use std::fmt;
 
 use crate::limit::{Limit, limit};
 use crate::order::{Basis, Estimate, Line, pairs};
-use crate::sequence::{Level, Sequence};
+use crate::sequence::{Sequence, SequenceLevel};
 use crate::share::{Share, lower, rounding};
 use crate::term::{Term, second_term};
 use crate::verdict::Verdict;
 
 /// A theoretical order, and the tolerance of the observed one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Expected {
+pub struct ExpectedOrder {
     /// p.
     pub order: f64,
     /// The highest order that correct methods may show; p, unless theory states a range.
@@ -22,7 +22,7 @@ pub struct Expected {
     pub tolerance: f64,
 }
 
-impl Expected {
+impl ExpectedOrder {
     /// Expects one order.
     pub const fn new(order: f64, tolerance: f64) -> Self {
         Self { order, highest: order, settles: true, tolerance }
@@ -39,18 +39,18 @@ impl Expected {
     }
 
     /// Compares an order that is known to within `reach` on either side with the expected one.
-    fn place(&self, order: f64, reach: f64) -> Place {
+    fn place(&self, order: f64, reach: f64) -> OrderPosition {
         let [low, high] = [order - reach, order + reach].map(|it| self.distance(it));
         match self.tolerance {
-            tolerance if low >= -tolerance && high <= tolerance => Place::Near,
-            tolerance if high < -tolerance => Place::Below,
-            tolerance if low > tolerance => Place::Above,
-            _ => Place::Open,
+            tolerance if low >= -tolerance && high <= tolerance => OrderPosition::Near,
+            tolerance if high < -tolerance => OrderPosition::Below,
+            tolerance if low > tolerance => OrderPosition::Above,
+            _ => OrderPosition::Open,
         }
     }
 }
 
-impl fmt::Display for Expected {
+impl fmt::Display for ExpectedOrder {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.highest > self.order {
             true => write!(f, "{} to {}", self.order, self.highest),
@@ -61,7 +61,7 @@ impl fmt::Display for Expected {
 
 /// The position of an order relative to the expected one.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Place {
+enum OrderPosition {
     /// Within the tolerance.
     Near,
     /// Below the tolerance.
@@ -100,7 +100,7 @@ pub enum Reason {
 
 /// The result of one norm.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Finding {
+pub struct NormFinding {
     /// The outcome.
     pub verdict: Verdict,
     /// The reason of the verdict.
@@ -121,16 +121,16 @@ pub struct Finding {
 /// then decides.
 const PURE: f64 = 1e-3;
 
-impl Finding {
+impl NormFinding {
     /// Judges one norm, by the levels that precede the first level that may be at round-off. While the verdict is `not
     /// asymptotic` and the term of order p + 1 dominates on the coarsest of more than three levels, drops that level and judges
     /// again. For a range of orders, tries the highest order first.
-    pub fn of(sequence: &Sequence, expected: Expected) -> Self {
+    pub fn of(sequence: &Sequence, expected: ExpectedOrder) -> Self {
         if sequence.is_exact() {
             return Self::exact(sequence.levels());
         }
         if expected.highest > expected.order {
-            let best = Self::of(sequence, Expected::new(expected.highest, expected.tolerance));
+            let best = Self::of(sequence, ExpectedOrder::new(expected.highest, expected.tolerance));
             if best.verdict == Verdict::Pass {
                 return best;
             }
@@ -151,7 +151,7 @@ impl Finding {
     }
 
     /// The finding for levels whose errors are all at round-off.
-    fn exact(levels: &[Level]) -> Self {
+    fn exact(levels: &[SequenceLevel]) -> Self {
         let (verdict, reason) = (Verdict::Exact, Reason::Exact);
         Self { verdict, reason, ..Self::none(levels.iter().map(|level| level.length).collect()) }
     }
@@ -170,33 +170,41 @@ impl Finding {
     }
 
     /// Judges the order of a fit over more than one length, given with half its interval; `None` if no fit exists.
-    pub(crate) fn of_fit(order: Option<[f64; 2]>, lengths: Vec<f64>, expected: Expected) -> Self {
+    pub(crate) fn of_fit(
+        order: Option<[f64; 2]>,
+        lengths: Vec<f64>,
+        expected: ExpectedOrder,
+    ) -> Self {
         let Some([order, reach]) = order else { return Self::none(lengths) };
         let shown = reach.max(expected.resolution());
         let interval = Some([order - shown, order + shown]);
         let estimate = Some(Estimate { order, interval, basis: Basis::Scatter });
         let place = match expected.place(order, 0.0) {
-            Place::Near if reach > expected.tolerance => Place::Open,
-            Place::Below | Place::Above if expected.distance(order).abs() <= reach => Place::Open,
+            OrderPosition::Near if reach > expected.tolerance => OrderPosition::Open,
+            OrderPosition::Below | OrderPosition::Above
+                if expected.distance(order).abs() <= reach =>
+            {
+                OrderPosition::Open
+            }
             place => place,
         };
         Self { estimate, ..Self::none(lengths) }.decided(place)
     }
 
     /// The second term, if it changes the order on the finest level by a visible amount, and is not expected.
-    pub fn material_term(&self, expected: Expected) -> Option<Term> {
+    pub fn material_term(&self, expected: ExpectedOrder) -> Option<Term> {
         let is_seen = |it: &Term| it.moves(expected.order) >= expected.resolution();
         self.term.filter(|it| is_seen(it) && expected.distance(it.order) != 0.0)
     }
 
     /// The limit, if it is significantly different from 0, changes the order visibly, and no second term was found.
-    pub fn inconsistency(&self, expected: Expected) -> Option<Limit> {
+    pub fn inconsistency(&self, expected: ExpectedOrder) -> Option<Limit> {
         let is_seen = |it: &Limit| it.share * it.order >= expected.resolution();
         self.limit.filter(|it| self.term.is_none() && !it.is_consistent() && is_seen(it))
     }
 
     /// Judges only these levels.
-    fn on(levels: &[Level], expected: Expected) -> Self {
+    fn on(levels: &[SequenceLevel], expected: ExpectedOrder) -> Self {
         let mut finding = Self::none(levels.iter().map(|level| level.length).collect());
         let Some(orders) = pairs(levels).filter(|orders| !orders.is_empty()) else {
             return finding;
@@ -205,7 +213,7 @@ impl Finding {
         if let [order] = orders[..] {
             let reach = finding.estimate.filter(|it| it.interval.is_some()).map(|it| it.reach());
             let place = expected.place(order, reach.unwrap_or(0.0));
-            let is_open = place == Place::Open;
+            let is_open = place == OrderPosition::Open;
             let reason = if is_open { Reason::Digits } else { Reason::TwoLevels };
             return Self { reason, ..finding.decided(place) };
         }
@@ -221,36 +229,43 @@ impl Finding {
     }
 
     /// Places the order of three levels or more; `finest` is the order of the finest pair.
-    fn place(&self, levels: &[Level], finest: f64, expected: Expected) -> Place {
-        let Expected { order: p, highest, settles, tolerance } = expected;
+    fn place(
+        &self,
+        levels: &[SequenceLevel],
+        finest: f64,
+        expected: ExpectedOrder,
+    ) -> OrderPosition {
+        let ExpectedOrder { order: p, highest, settles, tolerance } = expected;
         let is_pure = |line: &Line| line.scatter.max(rounding(levels)) <= PURE;
         if let Some(line) = Line::through(levels).filter(is_pure) {
             return expected.place(line.order, 0.0);
         }
         let levels_off = |it: Limit| it.is_plain() && it.share * it.order > 2.0 * tolerance;
         if self.limit.is_some_and(levels_off) {
-            return Place::Below;
+            return OrderPosition::Below;
         }
-        let Some(share) = self.share else { return Place::Open };
+        let Some(share) = self.share else { return OrderPosition::Open };
         let [least, most] = share.lowers(p);
-        if least > tolerance && expected.place(finest, 0.0) == Place::Below {
-            Place::Below
+        if least > tolerance && expected.place(finest, 0.0) == OrderPosition::Below {
+            OrderPosition::Below
         } else if share.total_order - share.reach > highest + tolerance {
-            Place::Above
-        } else if most <= tolerance || !settles && expected.place(finest, 0.0) == Place::Near {
-            Place::Near
+            OrderPosition::Above
+        } else if most <= tolerance
+            || !settles && expected.place(finest, 0.0) == OrderPosition::Near
+        {
+            OrderPosition::Near
         } else {
-            Place::Open
+            OrderPosition::Open
         }
     }
 
     /// The finding with the verdict of a place.
-    fn decided(self, place: Place) -> Self {
+    fn decided(self, place: OrderPosition) -> Self {
         let (verdict, reason) = match place {
-            Place::Near => (Verdict::Pass, Reason::Settled),
-            Place::Below => (Verdict::Fail, Reason::Below),
-            Place::Above => (Verdict::NotAsymptotic, Reason::Above),
-            Place::Open => (Verdict::NotAsymptotic, Reason::Open),
+            OrderPosition::Near => (Verdict::Pass, Reason::Settled),
+            OrderPosition::Below => (Verdict::Fail, Reason::Below),
+            OrderPosition::Above => (Verdict::NotAsymptotic, Reason::Above),
+            OrderPosition::Open => (Verdict::NotAsymptotic, Reason::Open),
         };
         Self { verdict, reason, ..self }
     }

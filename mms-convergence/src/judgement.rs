@@ -1,6 +1,6 @@
 //! The norms of one quantity together.
 
-use crate::finding::{Expected, Finding, Reason};
+use crate::finding::{ExpectedOrder, NormFinding, Reason};
 use crate::grid::Fit;
 use crate::sequence::Sequence;
 use crate::verdict::Verdict;
@@ -14,26 +14,26 @@ use crate::verdict::Verdict;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Judgement {
     /// The findings, at least one, in the order in which the norms were given.
-    pub norms: Vec<Judged>,
+    pub norms: Vec<NormJudgement>,
     /// The index of the norm that decided; `l2` first, if no other is worse.
     deciding: usize,
 }
 
 /// One norm, and its result.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Judged {
+pub struct NormJudgement {
     /// The name of the norm.
     pub norm: String,
     /// The expected order.
-    pub expected: Expected,
+    pub expected: ExpectedOrder,
     /// The finding from the levels.
-    pub finding: Finding,
+    pub finding: NormFinding,
 }
 
-impl Judged {
+impl NormJudgement {
     /// Whether the order exceeds the least order that correct methods may show.
     pub fn is_superconvergent(&self) -> bool {
-        let Expected { order, highest, tolerance, .. } = self.expected;
+        let ExpectedOrder { order, highest, tolerance, .. } = self.expected;
         let is_more = |observed: f64| highest > order && observed > order + tolerance;
         self.finding.verdict == Verdict::Pass
             && self.finding.estimate.is_some_and(|it| is_more(it.order))
@@ -42,7 +42,7 @@ impl Judged {
     /// Whether a norm beside l2 counts: its order is lower by more than the tolerance, or it has no order because a run stopped.
     /// Two levels have no interval: for them it is twice the tolerance.
     fn is_far(&self) -> bool {
-        let Expected { order, tolerance, .. } = self.expected;
+        let ExpectedOrder { order, tolerance, .. } = self.expected;
         let is_far = self.finding.estimate.is_none_or(|it| match it.interval {
             Some([_, high]) => high < order - tolerance,
             None => it.order < order - 2.0 * tolerance,
@@ -59,7 +59,7 @@ impl Judged {
 
     /// A norm beside l2. A single pair of levels shows only an order that is too low by more than [`HALF`].
     fn beside_l2(mut self) -> Self {
-        let Finding { verdict, reason, estimate, .. } = &mut self.finding;
+        let NormFinding { verdict, reason, estimate, .. } = &mut self.finding;
         let is_near = estimate.is_some_and(|it| it.order >= self.expected.order - HALF);
         if *reason == Reason::TwoLevels && *verdict == Verdict::Fail && is_near {
             *verdict = Verdict::NotAsymptotic;
@@ -76,12 +76,12 @@ const NEAR: f64 = 0.15;
 impl Judgement {
     /// Judges each norm. `None` without a norm.
     pub fn of<'a>(
-        norms: impl IntoIterator<Item = (&'a str, &'a Sequence, Expected)>,
+        norms: impl IntoIterator<Item = (&'a str, &'a Sequence, ExpectedOrder)>,
     ) -> Option<Self> {
-        let judged = |(norm, sequence, expected): (&str, &Sequence, Expected)| Judged {
+        let judged = |(norm, sequence, expected): (&str, &Sequence, ExpectedOrder)| NormJudgement {
             norm: norm.to_owned(),
             expected,
-            finding: Finding::of(sequence, expected),
+            finding: NormFinding::of(sequence, expected),
         };
         Self::worst(norms.into_iter().map(judged).collect())
     }
@@ -89,39 +89,39 @@ impl Judgement {
     /// Judges the orders in space and in time of norms whose errors were fitted over runs of [h, dt].
     pub fn of_fits<'a>(
         runs: &[[f64; 2]],
-        norms: impl IntoIterator<Item = (&'a str, Option<Fit>, [Expected; 2])>,
+        norms: impl IntoIterator<Item = (&'a str, Option<Fit>, [ExpectedOrder; 2])>,
     ) -> Option<Self> {
-        let judged = |(norm, fit, expected): (&'a str, Option<Fit>, [Expected; 2])| {
+        let judged = |(norm, fit, expected): (&'a str, Option<Fit>, [ExpectedOrder; 2])| {
             let orders = fit.map(|it| [it.space_order, it.time_order]);
             ["h", "dt"].into_iter().enumerate().map(move |(which, length)| {
                 let order = orders.zip(fit).map(|(orders, it)| [orders[which], it.reach[which]]);
                 let expected = expected[which];
-                let finding = Finding::of_fit(order, lengths(runs, which), expected);
-                Judged { norm: format!("{norm} in {length}"), expected, finding }
+                let finding = NormFinding::of_fit(order, lengths(runs, which), expected);
+                NormJudgement { norm: format!("{norm} in {length}"), expected, finding }
             })
         };
         Self::worst(norms.into_iter().flat_map(judged).collect())
     }
 
-    fn worst(norms: Vec<Judged>) -> Option<Self> {
+    fn worst(norms: Vec<NormJudgement>) -> Option<Self> {
         let has_l2 = norms.iter().any(|it| it.norm == "l2");
-        let is_beside = |it: &Judged| has_l2 && matches!(it.norm.as_str(), "l1" | "linf");
-        let norms: Vec<Judged> =
+        let is_beside = |it: &NormJudgement| has_l2 && matches!(it.norm.as_str(), "l1" | "linf");
+        let norms: Vec<NormJudgement> =
             norms.into_iter().map(|it| if is_beside(&it) { it.beside_l2() } else { it }).collect();
-        let decides = |it: &Judged| match it.norm.as_str() {
+        let decides = |it: &NormJudgement| match it.norm.as_str() {
             "l1" | "linf" if has_l2 => it.is_far(),
             "h1" if has_l2 => it.finding.verdict != Verdict::NotAsymptotic,
             _ => true,
         };
         let worst = norms.iter().filter(|it| decides(it)).map(|it| it.finding.verdict).max()?;
-        let is_worst = |it: &Judged| decides(it) && it.finding.verdict == worst;
+        let is_worst = |it: &NormJudgement| decides(it) && it.finding.verdict == worst;
         let of_l2 = norms.iter().position(|it| it.norm == "l2" && is_worst(it));
         let deciding = of_l2.or_else(|| norms.iter().position(is_worst))?;
         Some(Self { norms, deciding })
     }
 
     /// The norm that decided.
-    pub fn deciding(&self) -> &Judged {
+    pub fn deciding(&self) -> &NormJudgement {
         &self.norms[self.deciding]
     }
 
@@ -143,7 +143,7 @@ impl Judgement {
     }
 
     /// The result of a norm.
-    pub fn norm(&self, name: &str) -> Option<&Judged> {
+    pub fn norm(&self, name: &str) -> Option<&NormJudgement> {
         self.norms.iter().find(|it| it.norm == name)
     }
 

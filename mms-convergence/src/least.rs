@@ -30,11 +30,11 @@ impl<const K: usize> Solution<K> {
 }
 
 /// The factors of the unknowns, and the right-hand side.
-pub(crate) type Row<const K: usize> = ([f64; K], f64);
+pub(crate) type Equation<const K: usize> = ([f64; K], f64);
 
 /// Solves sum_k row_k unknown_k = right in the least-squares sense; `None` if the rows do not determine it.
-pub(crate) fn solve<const K: usize>(rows: &[Row<K>]) -> Option<Solution<K>> {
-    let sum = |term: &dyn Fn(&Row<K>) -> f64| rows.iter().map(term).sum::<f64>();
+pub(crate) fn solve<const K: usize>(rows: &[Equation<K>]) -> Option<Solution<K>> {
+    let sum = |term: &dyn Fn(&Equation<K>) -> f64| rows.iter().map(term).sum::<f64>();
     let size: [f64; K] = std::array::from_fn(|i| sum(&|(row, _)| row[i] * row[i]).sqrt());
     let normal: [[f64; K]; K] = std::array::from_fn(|i| {
         std::array::from_fn(|j| sum(&|(row, _)| row[i] / size[i] * row[j] / size[j]))
@@ -43,7 +43,7 @@ pub(crate) fn solve<const K: usize>(rows: &[Row<K>]) -> Option<Solution<K>> {
     let right: [f64; K] = std::array::from_fn(|i| sum(&|(row, b)| row[i] / size[i] * b));
     let unknown = |i: usize| (0..K).map(|j| inverse[i][j] * right[j]).sum::<f64>() / size[i];
     let unknowns: [f64; K] = std::array::from_fn(unknown);
-    let residual = |(row, b): &Row<K>| {
+    let residual = |(row, b): &Equation<K>| {
         let value: f64 = row.iter().zip(&unknowns).map(|(a, u)| a * u).sum();
         (value - b).powi(2)
     };

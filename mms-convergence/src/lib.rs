@@ -5,8 +5,8 @@
 //! numerical uncertainty of CFD calculations based on grid refinement studies, J. Comput. Phys. 262 (2014) 104-130: least
 //! squares, with the scatter of the residuals as the measure of noise.
 //!
-//! Errors e_i of one norm on levels h_i (or dt_i) make a [`Sequence`]; several errors of one h are replicates. [`Finding::of`]
-//! compares it with an [`Expected`] order p:
+//! Errors e_i of one norm on levels h_i (or dt_i) make a [`Sequence`]; several errors of one h are replicates. [`NormFinding::of`]
+//! compares it with an [`ExpectedOrder`] order p:
 //!
 //! | levels | fit | result |
 //! |---|---|---|
@@ -52,12 +52,12 @@ mod term;
 mod verdict;
 mod words;
 
-pub use finding::{Expected, Finding, Reason};
+pub use finding::{ExpectedOrder, NormFinding, Reason};
 pub use grid::{Fit, fit};
-pub use judgement::{Judged, Judgement};
+pub use judgement::{Judgement, NormJudgement};
 pub use limit::Limit;
 pub use order::{Basis, Estimate};
-pub use sequence::{Level, Sample, Sequence, observed_order};
+pub use sequence::{Sample, Sequence, SequenceLevel, observed_order};
 pub use share::Share;
 pub use term::{Term, TermKind};
 pub use verdict::{CONSTANT_TOLERANCE, RULE, TOLERANCE, Verdict, is_near};

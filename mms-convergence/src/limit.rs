@@ -2,7 +2,7 @@
 
 use crate::OUTSIDE;
 use crate::least::{Solution, solve};
-use crate::sequence::Level;
+use crate::sequence::SequenceLevel;
 
 /// The error in the limit of fine levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,12 +33,12 @@ impl Limit {
 const ORDERS: [f64; 2] = [0.1, 8.0];
 
 /// Fits four levels or more, with relative errors; `None` with fewer, or if no order is best.
-pub(crate) fn limit(levels: &[Level]) -> Option<Limit> {
+pub(crate) fn limit(levels: &[SequenceLevel]) -> Option<Limit> {
     if levels.len() < 4 {
         return None;
     }
     let finest = levels.last()?;
-    let point = |it: &Level| [it.length / finest.length, it.error() / finest.error()];
+    let point = |it: &SequenceLevel| [it.length / finest.length, it.error() / finest.error()];
     let points: Vec<_> = levels.iter().map(point).collect();
     let left = |p: f64| linear(&points, p).map_or(f64::INFINITY, |found| found.left);
     let order = least(left);

@@ -2,7 +2,7 @@
 
 use crate::OUTSIDE;
 use crate::least::{Solution, solve};
-use crate::sequence::Level;
+use crate::sequence::SequenceLevel;
 use crate::student::tail_of_ratio;
 
 /// An order, and its interval.
@@ -34,7 +34,7 @@ const SAFETY: f64 = 1.25;
 
 impl Estimate {
     /// The order of two levels or more, whose errors are positive. The half width of an interval is at least `resolution`.
-    pub(crate) fn of(levels: &[Level], resolution: f64) -> Option<Self> {
+    pub(crate) fn of(levels: &[SequenceLevel], resolution: f64) -> Option<Self> {
         let first = *pairs(levels)?.last()?;
         let (order, reach, basis) = match levels {
             [coarse, fine] => return Some(Self::of_two(first, coarse, fine)),
@@ -47,7 +47,7 @@ impl Estimate {
         Some(Self { order, interval: Some(interval), basis })
     }
 
-    fn of_two(order: f64, coarse: &Level, fine: &Level) -> Self {
+    fn of_two(order: f64, coarse: &SequenceLevel, fine: &SequenceLevel) -> Self {
         let digits = coarse.rounding + fine.rounding;
         if digits == 0.0 {
             return Self { order, interval: None, basis: Basis::Nothing };
@@ -68,13 +68,13 @@ impl Estimate {
 }
 
 /// The orders between neighbours; `None` if a pair has none.
-pub(crate) fn pairs(levels: &[Level]) -> Option<Vec<f64>> {
+pub(crate) fn pairs(levels: &[SequenceLevel]) -> Option<Vec<f64>> {
     levels.windows(2).map(|pair| pair[1].order_from(&pair[0])).collect()
 }
 
 /// The interval of three levels: the two orders, and the possible further drift of the second if orders approach their limit as
 /// h does.
-fn drift(levels: &[Level]) -> Option<[f64; 2]> {
+fn drift(levels: &[SequenceLevel]) -> Option<[f64; 2]> {
     let [first, second] = pairs(levels)?[..] else { return None };
     let ratio = levels[1].length / levels[2].length;
     let further = second + SAFETY * (second - first) / (ratio - 1.0);
@@ -84,7 +84,7 @@ fn drift(levels: &[Level]) -> Option<[f64; 2]> {
 /// Fits ln e = ln C + p ln h by least squares, and returns p and half its interval. With replicates the scatter combines
 /// replicates and levels, unless levels scatter more than replicates do (lack of fit, by Fisher's F; Draper & Smith, Applied
 /// Regression Analysis, 1998, section 2.1). `None` for three levels, unless the scatter of replicates is used.
-fn scatter(levels: &[Level]) -> Option<(f64, f64)> {
+fn scatter(levels: &[SequenceLevel]) -> Option<(f64, f64)> {
     let all = levels.iter().flat_map(|level| level.errors.iter().map(|e| [level.length, *e]));
     let of_all = power_law(all)?;
     let within: f64 = levels
@@ -102,7 +102,7 @@ fn scatter(levels: &[Level]) -> Option<(f64, f64)> {
     Some((found.unknowns[1], found.reach(1, OUTSIDE)))
 }
 
-fn means(levels: &[Level]) -> impl Iterator<Item = [f64; 2]> {
+fn means(levels: &[SequenceLevel]) -> impl Iterator<Item = [f64; 2]> {
     levels.iter().map(|level| [level.length, level.error()])
 }
 
@@ -124,7 +124,7 @@ pub(crate) struct Line {
 
 impl Line {
     /// Fits three levels or more.
-    pub fn through(levels: &[Level]) -> Option<Self> {
+    pub fn through(levels: &[SequenceLevel]) -> Option<Self> {
         let found = power_law(means(levels))?;
         let scatter = (found.left / levels.len().checked_sub(2)? as f64).sqrt();
         Some(Self { order: found.unknowns[1], left: found.left, scatter })

@@ -40,7 +40,7 @@ const SAME: f64 = 1e-6;
 
 /// The runs of one length. Several runs are replicates: with other grid offsets, or other seeds.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Level {
+pub struct SequenceLevel {
     /// h or dt.
     pub length: f64,
     /// The errors of the runs, in the order in which they were given.
@@ -51,7 +51,7 @@ pub struct Level {
     is_noise: bool,
 }
 
-impl Level {
+impl SequenceLevel {
     /// The error; for replicates the geometric mean, since orders are differences of logarithms.
     pub fn error(&self) -> f64 {
         match self.errors.as_slice() {
@@ -61,7 +61,7 @@ impl Level {
     }
 
     /// The observed order from a coarser level to this one.
-    pub fn order_from(&self, coarse: &Level) -> Option<f64> {
+    pub fn order_from(&self, coarse: &SequenceLevel) -> Option<f64> {
         observed_order([coarse.error(), self.error()], [coarse.length, self.length])
     }
 
@@ -76,7 +76,7 @@ impl Level {
 /// The levels of a study in one norm, from coarse to fine.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sequence {
-    levels: Vec<Level>,
+    levels: Vec<SequenceLevel>,
     is_exact: bool,
 }
 
@@ -85,11 +85,11 @@ impl Sequence {
     pub fn new(samples: impl IntoIterator<Item = Sample>) -> Self {
         let mut samples: Vec<Sample> = samples.into_iter().collect();
         samples.sort_by(|a, b| b.length.total_cmp(&a.length));
-        let mut levels: Vec<Level> = Vec::new();
+        let mut levels: Vec<SequenceLevel> = Vec::new();
         for sample in samples {
             match levels.last_mut() {
                 Some(level) if level.length <= sample.length * (1.0 + SAME) => level.join(sample),
-                _ => levels.push(Level {
+                _ => levels.push(SequenceLevel {
                     length: sample.length,
                     errors: sample.error.into_iter().collect(),
                     rounding: sample.relative_rounding(),
@@ -112,7 +112,7 @@ impl Sequence {
     }
 
     /// The levels, from coarse to fine.
-    pub fn levels(&self) -> &[Level] {
+    pub fn levels(&self) -> &[SequenceLevel] {
         &self.levels
     }
 
@@ -122,7 +122,7 @@ impl Sequence {
     }
 
     /// The levels before the first that may be at round-off.
-    pub fn sound(&self) -> &[Level] {
+    pub fn sound(&self) -> &[SequenceLevel] {
         let sound = self.levels.iter().take_while(|level| !level.is_noise).count();
         &self.levels[..sound]
     }

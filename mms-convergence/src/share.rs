@@ -1,7 +1,7 @@
 //! The share of a term of lower order in the finest error: e = C h^p + D h^q + E h^(p+1) with q < p.
 
 use crate::least::solve;
-use crate::sequence::Level;
+use crate::sequence::SequenceLevel;
 
 /// The relative scatter of the errors of correct methods. It has the weight of one more level.
 const USUAL_SCATTER: f64 = 0.025;
@@ -36,7 +36,7 @@ pub(crate) fn lower(p: f64) -> f64 {
 }
 
 /// The scatter due to printed digits, whose error is uniform; relative to the errors.
-pub(crate) fn rounding(levels: &[Level]) -> f64 {
+pub(crate) fn rounding(levels: &[SequenceLevel]) -> f64 {
     let sum: f64 = levels.iter().map(|level| level.rounding.powi(2) / 3.0).sum();
     (sum / levels.len() as f64).sqrt()
 }
@@ -55,9 +55,9 @@ impl Share {
     /// Fits three levels or more, each error relative to itself; `None` if they do not determine the terms.
     ///
     /// The scatter combines the scatter about the fit, one level of the usual scatter, and printed digits.
-    pub(crate) fn of(levels: &[Level], p: f64, q: f64) -> Option<Self> {
+    pub(crate) fn of(levels: &[SequenceLevel], p: f64, q: f64) -> Option<Self> {
         let (coarsest, finest) = (levels.first()?, levels.last()?);
-        let row = |level: &Level| {
+        let row = |level: &SequenceLevel| {
             let (x, e) = (level.length / finest.length, level.error() / finest.error());
             let [main, low, high] = [p, q, p + 1.0].map(|power| x.powf(power) / e);
             // The first unknown is the sum of the terms on the finest level, so that the others relative to it are shares.

@@ -3,7 +3,7 @@
 use crate::OUTSIDE;
 use crate::least::solve;
 use crate::order::Line;
-use crate::sequence::Level;
+use crate::sequence::SequenceLevel;
 
 /// The kind of a second term, which explains a drift of the orders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,7 +61,7 @@ const EXACT: f64 = 1e-20;
 ///
 /// Errors are relative. Intervals are Student's for one of four tested terms (Bonferroni), so that scatter alone shows one in
 /// at most 5 % of all cases.
-pub(crate) fn second_term(levels: &[Level], expected: f64) -> Option<Term> {
+pub(crate) fn second_term(levels: &[SequenceLevel], expected: f64) -> Option<Term> {
     let misfit = Line::through(levels).map_or(f64::INFINITY, |line| line.left);
     if misfit < EXACT {
         return None;
@@ -72,9 +72,9 @@ pub(crate) fn second_term(levels: &[Level], expected: f64) -> Option<Term> {
 }
 
 /// Fits one kind of term, and returns its misfit, too.
-fn fit(levels: &[Level], p: f64, (kind, q): (TermKind, f64)) -> Option<(Term, f64)> {
+fn fit(levels: &[SequenceLevel], p: f64, (kind, q): (TermKind, f64)) -> Option<(Term, f64)> {
     let finest = levels.last()?;
-    let row = |level: &Level| {
+    let row = |level: &SequenceLevel| {
         let (x, e) = (level.length / finest.length, level.error() / finest.error());
         ([x.powf(p) / e, x.powf(q) / e], 1.0)
     };

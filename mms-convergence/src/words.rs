@@ -1,8 +1,8 @@
 //! Verdicts in words.
 
-use crate::finding::{Expected, Finding, Reason};
+use crate::finding::{ExpectedOrder, NormFinding, Reason};
 use crate::grid::Fit;
-use crate::judgement::{Judged, Judgement};
+use crate::judgement::{Judgement, NormJudgement};
 use crate::order::Basis;
 use crate::term::{Term, TermKind};
 use crate::verdict::Verdict;
@@ -37,20 +37,20 @@ impl Judgement {
 
     /// The order with its interval, the norm and the levels that decided, and the expected order.
     pub fn headline(&self, name: Name<'_>) -> String {
-        let Judged { norm, expected, finding } = self.deciding();
+        let NormJudgement { norm, expected, finding } = self.deciding();
         finding.says(norm, *expected, name)
     }
 
     /// The reasons of the verdict, a sentence a line: first the basis of the interval.
     pub fn explanations(&self, symbol: &str, name: Name<'_>) -> Vec<String> {
-        let Judged { expected, finding, .. } = self.deciding();
+        let NormJudgement { expected, finding, .. } = self.deciding();
         let basis = finding.basis(*expected).into_iter();
         basis.chain(self.reasons(symbol, name)).collect()
     }
 
     /// The reasons of the verdict, without the basis of the interval.
     pub fn reasons(&self, symbol: &str, name: Name<'_>) -> Vec<String> {
-        let Judged { expected, finding, .. } = self.deciding();
+        let NormJudgement { expected, finding, .. } = self.deciding();
         let mut lines = finding.reasons(*expected, symbol, name);
         lines.extend(self.layer().map(|q| {
             format!(
@@ -62,9 +62,9 @@ impl Judgement {
     }
 }
 
-impl Finding {
+impl NormFinding {
     /// The order, its interval, norm and levels, and the expected order.
-    fn says(&self, norm: &str, expected: Expected, name: Name<'_>) -> String {
+    fn says(&self, norm: &str, expected: ExpectedOrder, name: Name<'_>) -> String {
         let levels = match self.lengths.as_slice() {
             [] => "no level".into(),
             [alone] => name(*alone),
@@ -88,7 +88,7 @@ impl Finding {
         format!("{observed}, expected {expected}{}", self.because(expected))
     }
 
-    fn because(&self, expected: Expected) -> String {
+    fn because(&self, expected: ExpectedOrder) -> String {
         match self.reason {
             Reason::Exact => "; all errors are at round-off".into(),
             Reason::Settled | Reason::Below | Reason::Above => String::new(),
@@ -120,7 +120,7 @@ impl Finding {
     }
 
     /// The basis of the interval.
-    fn basis(&self, expected: Expected) -> Option<String> {
+    fn basis(&self, expected: ExpectedOrder) -> Option<String> {
         match self.estimate?.basis {
             Basis::Scatter => Some(format!(
                 "the 95 % interval follows from the scatter about a power law, and is no less than +-{:.2}",
@@ -135,7 +135,7 @@ impl Finding {
     }
 
     /// The findings of the fits, in words.
-    fn reasons(&self, expected: Expected, symbol: &str, name: Name<'_>) -> Vec<String> {
+    fn reasons(&self, expected: ExpectedOrder, symbol: &str, name: Name<'_>) -> Vec<String> {
         let mut lines = Vec::new();
         let is_asked = matches!(self.reason, Reason::Below | Reason::Open);
         lines.extend(self.share_says(expected.order).filter(|_| is_asked));

@@ -1,13 +1,13 @@
 //! Intervals contain the true order as often as they promise, in 2000 studies with noise of a known law.
 
-use mms_convergence::{Basis, Expected, Finding, Sample, Sequence, Verdict};
+use mms_convergence::{Basis, ExpectedOrder, NormFinding, Sample, Sequence, Verdict};
 
 use crate::sampled::sampled;
 
 /// One in this number of kinds of studies is tried.
 const SHARE: usize = 4;
 
-const SECOND: Expected = Expected::new(2.0, 0.15);
+const SECOND: ExpectedOrder = ExpectedOrder::new(2.0, 0.15);
 const STUDIES: usize = 2000;
 
 /// A normally distributed number, by Box and Muller.
@@ -17,17 +17,17 @@ fn normal(random: &mut fastrand::Rng) -> f64 {
 }
 
 /// The findings of studies with errors C h^order and a relative noise, `runs` of them on each level.
-fn studies(levels: i32, runs: i32, order: f64, noise: f64) -> Vec<Finding> {
+fn studies(levels: i32, runs: i32, order: f64, noise: f64) -> Vec<NormFinding> {
     let mut random = fastrand::Rng::with_seed(2014);
     let mut study = || {
         let lengths = (0..levels * runs).map(|k| 0.5f64.powi(k / runs));
         let sample = |h: f64| Sample::new(h, h.powf(order) * (noise * normal(&mut random)).exp());
-        Finding::of(&Sequence::new(lengths.map(sample)), SECOND)
+        NormFinding::of(&Sequence::new(lengths.map(sample)), SECOND)
     };
     (0..STUDIES).map(|_| study()).collect()
 }
 
-fn share(findings: &[Finding], is: impl Fn(&Finding) -> bool) -> f64 {
+fn share(findings: &[NormFinding], is: impl Fn(&NormFinding) -> bool) -> f64 {
     findings.iter().filter(|it| is(it)).count() as f64 / findings.len() as f64
 }
 
@@ -67,7 +67,7 @@ fn passed_and_failed(levels: i32, noise: f64, first: f64) -> [f64; 2] {
             Sample::new(x, error * (1.0 + noise * normal(&mut random)))
         };
         let samples: Vec<_> = (1..=levels).map(&mut sample).collect();
-        Finding::of(&Sequence::new(samples), SECOND).verdict
+        NormFinding::of(&Sequence::new(samples), SECOND).verdict
     };
     let verdicts: Vec<_> = (0..STUDIES).map(|_| study()).collect();
     [Verdict::Pass, Verdict::Fail].map(|verdict| {
@@ -111,14 +111,14 @@ fn noise_is_seldom_taken_for_a_second_term() {
 fn replicates_tell_what_three_levels_cannot() {
     let alone = studies(3, 1, 2.0, 0.05);
     let replicated = studies(3, 6, 2.0, 0.05);
-    let passes = |found: &[Finding]| share(found, |it| it.verdict == Verdict::Pass);
+    let passes = |found: &[NormFinding]| share(found, |it| it.verdict == Verdict::Pass);
     assert!(
         passes(&alone) < 0.52 && passes(&replicated) > 0.68,
         "{}, {}",
         passes(&alone),
         passes(&replicated)
     );
-    let by_scatter = |it: &Finding| it.estimate.is_some_and(|it| it.basis == Basis::Scatter);
+    let by_scatter = |it: &NormFinding| it.estimate.is_some_and(|it| it.basis == Basis::Scatter);
     assert_eq!(share(&alone, by_scatter), 0.0);
     assert!(share(&replicated, by_scatter) > 0.94);
 }
@@ -132,7 +132,7 @@ fn replicates_do_not_hide_what_levels_have_in_common() {
         let h = 0.5f64.powi(k as i32);
         [0.999, 1.0, 1.001].map(|own| Sample::new(h, own * factor * h * h))
     });
-    let found = Finding::of(&Sequence::new(samples), SECOND);
+    let found = NormFinding::of(&Sequence::new(samples), SECOND);
     assert_eq!(found.verdict, Verdict::NotAsymptotic);
     assert!(found.estimate.is_some_and(|it| it.reach() > 0.3), "{found:?}");
 }

@@ -1,10 +1,10 @@
 //! Errors with a known law, and their correct verdict.
 
 use mms_convergence::{
-    Basis, Expected, Finding, Judgement, Reason, Sample, Sequence, TermKind, Verdict,
+    Basis, ExpectedOrder, Judgement, NormFinding, Reason, Sample, Sequence, TermKind, Verdict,
 };
 
-const SECOND: Expected = Expected::new(2.0, 0.15);
+const SECOND: ExpectedOrder = ExpectedOrder::new(2.0, 0.15);
 
 /// Levels of sizes n, n/2, .. 1 times the finest, with the errors of a law of these sizes.
 fn levels(count: i32, law: impl Fn(f64) -> f64) -> Sequence {
@@ -12,12 +12,12 @@ fn levels(count: i32, law: impl Fn(f64) -> f64) -> Sequence {
     Sequence::new(sizes.map(|x| Sample::new(x * 1e-2, 1e-4 * law(x))))
 }
 
-fn finding(count: i32, law: impl Fn(f64) -> f64) -> Finding {
-    Finding::of(&levels(count, law), SECOND)
+fn finding(count: i32, law: impl Fn(f64) -> f64) -> NormFinding {
+    NormFinding::of(&levels(count, law), SECOND)
 }
 
 /// The finding for levels with these orders between them.
-fn with_orders(orders: &[f64]) -> Finding {
+fn with_orders(orders: &[f64]) -> NormFinding {
     let mut errors = vec![1.0];
     for order in orders {
         errors.push(errors[errors.len() - 1] * 0.5f64.powf(*order));
@@ -59,8 +59,8 @@ fn the_order_of_a_power_law_may_be_off_by_the_tolerance() {
             let found = finding(count, |x| x.powf(order));
             assert_eq!((found.verdict, found.reason), (verdict, reason), "{order}: {found:?}");
         }
-        let narrow = Expected { tolerance: 0.05, ..SECOND };
-        let found = |order: f64| Finding::of(&levels(count, |x| x.powf(order)), narrow).verdict;
+        let narrow = ExpectedOrder { tolerance: 0.05, ..SECOND };
+        let found = |order: f64| NormFinding::of(&levels(count, |x| x.powf(order)), narrow).verdict;
         assert_eq!([1.94, 1.96].map(found), [Verdict::Fail, Verdict::Pass]);
     }
 }
@@ -102,9 +102,9 @@ fn a_term_that_takes_away_from_the_error_is_no_pass() {
 /// Theory may state a range of orders, within which they settle.
 #[test]
 fn an_order_within_a_range_passes() {
-    let range = Expected { highest: 2.0, ..Expected::new(1.0, 0.15) };
+    let range = ExpectedOrder { highest: 2.0, ..ExpectedOrder::new(1.0, 0.15) };
     assert_eq!(range.to_string(), "1 to 2");
-    let found = |count: i32, law: &dyn Fn(f64) -> f64| Finding::of(&levels(count, law), range);
+    let found = |count: i32, law: &dyn Fn(f64) -> f64| NormFinding::of(&levels(count, law), range);
     for count in 3..7 {
         let laws: [(&dyn Fn(f64) -> f64, _); 7] = [
             (&|x| x, Verdict::Pass),
@@ -133,7 +133,7 @@ fn digits_or_scatter_leave_an_order_open() {
             let x = 2f64.powi(k);
             Sample { rounding, ..Sample::new(x * 1e-2, 1e-4 * x * x) }
         };
-        let found = Finding::of(&Sequence::new((0..3).map(sample)), SECOND);
+        let found = NormFinding::of(&Sequence::new((0..3).map(sample)), SECOND);
         (found.verdict, found.reason)
     };
     assert_eq!(with(0.0), (Verdict::Pass, Reason::Settled));
@@ -145,15 +145,15 @@ fn digits_or_scatter_leave_an_order_open() {
 /// Orders of velocities on irregular meshes do not settle. The finest pair is enough for a pass, and too low a pair is none.
 #[test]
 fn orders_need_not_settle_where_theory_gives_a_bound() {
-    let rough = Expected { highest: 3.0, settles: false, ..Expected::new(2.0, 0.15) };
+    let rough = ExpectedOrder { highest: 3.0, settles: false, ..ExpectedOrder::new(2.0, 0.15) };
     let found = |orders: &[f64], expected| {
         let mut errors = vec![1.0];
         orders.iter().for_each(|it| errors.push(errors[errors.len() - 1] * 0.5f64.powf(*it)));
         errors.reverse();
         let count = errors.len() as i32;
-        Finding::of(&levels(count, |x| errors[x.log2().round() as usize]), expected).verdict
+        NormFinding::of(&levels(count, |x| errors[x.log2().round() as usize]), expected).verdict
     };
-    let settled = Expected { settles: true, ..rough };
+    let settled = ExpectedOrder { settles: true, ..rough };
     assert_eq!(found(&[2.6, 2.83, 2.25], settled), Verdict::NotAsymptotic);
     // The highest order is tried first.
     assert_eq!(found(&[2.87, 3.03, 3.08], settled), Verdict::Pass);
@@ -167,9 +167,9 @@ fn orders_need_not_settle_where_theory_gives_a_bound() {
 fn orders_that_are_near_pass() {
     assert_eq!(with_orders(&[1.93, 1.95, 1.96, 1.96]).verdict, Verdict::Pass);
     assert_eq!(with_orders(&[2.3, 2.12, 2.05, 2.02]).verdict, Verdict::Pass);
-    let first = Expected::new(1.0, 0.15);
+    let first = ExpectedOrder::new(1.0, 0.15);
     let h1 = levels(4, |x| x + 0.3 * x * x);
-    assert_eq!(Finding::of(&h1, first).verdict, Verdict::Pass);
+    assert_eq!(NormFinding::of(&h1, first).verdict, Verdict::Pass);
 }
 
 #[test]
@@ -290,7 +290,7 @@ fn printed_digits_count() {
             let unit = 10f64.powf(e.log10().floor() - 1.0);
             Sample { rounding: 0.5 * unit, ..Sample::new(*h, *e) }
         });
-        Finding::of(&Sequence::new(samples), SECOND)
+        NormFinding::of(&Sequence::new(samples), SECOND)
     };
     let near = of(&[0.1, 0.099], &[1.0e-3, 9.8e-4]);
     assert_eq!((near.verdict, near.reason), (Verdict::NotAsymptotic, Reason::Digits));
@@ -311,7 +311,7 @@ fn errors_may_be_as_small_or_large_as_numbers_are() {
     for law in [|x: f64| x * x + 0.03 * x, |x: f64| x * x + x, |x: f64| x * x + 40.0] {
         let of = |scale: f64| {
             let sizes = (0..5).map(|k| 2f64.powi(k));
-            Finding::of(&Sequence::new(sizes.map(|x| Sample::new(x, scale * law(x)))), SECOND)
+            NormFinding::of(&Sequence::new(sizes.map(|x| Sample::new(x, scale * law(x)))), SECOND)
         };
         let usual = of(1.0);
         for scale in [1e-300, 1e-200, 1e200, 1e300] {
@@ -327,7 +327,7 @@ fn errors_of_zero_have_no_order_and_runs_that_stop_fail() {
     assert_eq!((zero.verdict, zero.reason), (Verdict::NotAsymptotic, Reason::NoOrder));
     let stopped = Sample { error: None, ..Sample::new(1.0, 0.0) };
     let others = [0.5, 0.25, 0.125].map(|h| Sample::new(h, h * h));
-    let found = Finding::of(&Sequence::new([stopped].into_iter().chain(others)), SECOND);
+    let found = NormFinding::of(&Sequence::new([stopped].into_iter().chain(others)), SECOND);
     assert_eq!((found.verdict, found.reason), (Verdict::Fail, Reason::Stopped));
 }
 
@@ -336,7 +336,7 @@ fn errors_of_zero_have_no_order_and_runs_that_stop_fail() {
 fn the_seminorm_of_h1_decides_where_it_fails() {
     let l2 = levels(3, |x| x * x);
     let of = |h1: Sequence| {
-        let norms = [("l2", &l2, SECOND), ("h1", &h1, Expected::new(1.0, 0.15))];
+        let norms = [("l2", &l2, SECOND), ("h1", &h1, ExpectedOrder::new(1.0, 0.15))];
         let judgement = Judgement::of(norms).expect("norms");
         let verdict = judgement.norm("h1").expect("h1").finding.verdict;
         (verdict, judgement.verdict(), judgement.deciding().norm.clone())
@@ -355,7 +355,7 @@ fn what_may_be_round_off_is_not_judged() {
             let error = (h * h).max(1e-3);
             Sample { is_noise: knows_the_floor && error < 1.1e-3, ..Sample::new(h, error) }
         };
-        Finding::of(&Sequence::new((0..8).map(sample)), SECOND)
+        NormFinding::of(&Sequence::new((0..8).map(sample)), SECOND)
     };
     assert_ne!(with(false).verdict, Verdict::Pass);
     let found = with(true);
@@ -418,7 +418,7 @@ fn words_name_the_norm_the_levels_and_the_reason() {
 fn errors_that_are_round_off_have_a_verdict_of_their_own() {
     let samples = || [0.0, 3e-17, 1e-17].into_iter().zip([4.0, 2.0, 1.0]);
     let exact = || Sequence::new(samples().map(|(error, h)| Sample::new(h, error))).exact(true);
-    let found = Finding::of(&exact(), SECOND);
+    let found = NormFinding::of(&exact(), SECOND);
     assert_eq!((found.verdict, found.reason), (Verdict::Exact, Reason::Exact));
     assert_eq!((found.estimate, found.lengths.len()), (None, 3));
     assert_eq!(found.verdict.to_string(), "exact to round-off");
@@ -433,7 +433,7 @@ fn errors_that_are_round_off_have_a_verdict_of_their_own() {
     );
     let stopped = Sample { error: None, ..Sample::new(0.5, 0.0) };
     let samples = samples().map(|(error, h)| Sample::new(h, error)).chain([stopped]);
-    let found = Finding::of(&Sequence::new(samples).exact(true), SECOND);
+    let found = NormFinding::of(&Sequence::new(samples).exact(true), SECOND);
     assert_eq!((found.verdict, found.reason), (Verdict::Fail, Reason::Stopped));
     assert!(Verdict::Exact < Verdict::Pass, "another quantity that has an order decides");
 }

@@ -9,7 +9,7 @@ use dashu_ratio::RBig;
 use mms_analysis::inverse_motion::{Inverse, Unplaced};
 use mms_interpreted::AtPoints;
 use mms_mechanics::extent::Extent;
-use mms_mechanics::invariant::Kind;
+use mms_mechanics::invariant::Invariants;
 use mms_mechanics::sample::domain;
 use mms_mechanics::{Output, Response};
 use mms_runtime::scene::Scene;
@@ -30,7 +30,7 @@ const BEYOND: f64 = 1.0 / 32.0;
 pub struct Exact {
     input: Input,
     /// Parameters that were set, by position.
-    set: SortedMap<usize, RBig>,
+    set_parameters: SortedMap<usize, RBig>,
     parameters: Vec<f64>,
     /// The coordinates of a point.
     pub dimension: usize,
@@ -49,19 +49,28 @@ impl Exact {
     /// # Errors
     /// Settings that it does not have.
     pub fn new(input: Input, settings: &[String]) -> anyhow::Result<Exact> {
-        input.hold(settings)?;
+        input.validate_settings(settings)?;
         input.validate_body("there is nothing that states and results could fill")?;
         let set = input.settings(settings)?;
         let parameters = input.compiled.parameters::<f64>(&set);
         let (body, window) = domain(&input.compiled.program, &parameters);
         let dimension = input.compiled.field.dimension;
         let (tensors, prepared) = (input.compiled.field.space.rows(), BTreeMap::new());
-        Ok(Exact { input, set, parameters, dimension, window, body, tensors, prepared })
+        Ok(Exact {
+            input,
+            set_parameters: set,
+            parameters,
+            dimension,
+            window,
+            body,
+            tensors,
+            prepared,
+        })
     }
 
     /// The parameters that are set, by position.
-    pub fn set(&self) -> &SortedMap<usize, RBig> {
-        &self.set
+    pub fn set_parameters(&self) -> &SortedMap<usize, RBig> {
+        &self.set_parameters
     }
 
     /// The values of all parameters, in the order of the file.
@@ -72,17 +81,17 @@ impl Exact {
     /// The field with another value of the parameter at a position, over the same body and time window; `None` if the value is
     /// not finite.
     pub fn with_parameter(&self, at: usize, value: f64) -> Option<Exact> {
-        let mut set = self.set.clone();
+        let mut set = self.set_parameters.clone();
         set.insert(at, RBig::try_from(value).ok()?);
         let parameters = self.input.compiled.parameters::<f64>(&set);
-        Some(Exact { set, parameters, ..self.unprepared() })
+        Some(Exact { set_parameters: set, parameters, ..self.unprepared() })
     }
 
     /// The field, with nothing prepared.
     pub fn unprepared(&self) -> Exact {
         Exact {
             input: self.input.clone(),
-            set: self.set.clone(),
+            set_parameters: self.set_parameters.clone(),
             parameters: self.parameters.clone(),
             body: self.body.clone(),
             prepared: BTreeMap::new(),
@@ -95,7 +104,7 @@ impl Exact {
     /// # Errors
     /// A field that is out of step with its file.
     pub fn scene(&self) -> anyhow::Result<Scene<f64>> {
-        self.input.scene_with(&self.set, |code| code.double)
+        self.input.scene_with(&self.set_parameters, |code| code.double)
     }
 
     /// The solution, whose tensors have all nine components if `is_asked`.
@@ -115,7 +124,7 @@ impl Exact {
     }
 
     /// Whether points also move along the hoop, and leave their meridian.
-    pub fn turns(&self) -> bool {
+    pub fn has_swirl(&self) -> bool {
         self.space() == Space::Axisymmetric { swirl: true }
     }
 
@@ -138,7 +147,7 @@ impl Exact {
 
     /// X of the point that is at x at a time, by the inverse of the motion: `None` if no point of the body is there. A point
     /// may be beyond the body by a small part of the distance between `points` points, and is then moved to its boundary.
-    pub fn back(
+    pub fn inverse(
         &self,
         time: f64,
         points: usize,
@@ -146,11 +155,12 @@ impl Exact {
         let near = self.spacing(points.max(1)) * BEYOND;
         let mut inverse = None;
         move |x, rounding| {
-            if self.turns() {
+            if self.has_swirl() {
                 return Err(TURNS.into());
             }
-            let inverse: &mut Inverse<'_> =
-                inverse.get_or_insert_with(|| Inverse::new(&self.input.compiled, &self.set, time));
+            let inverse: &mut Inverse<'_> = inverse.get_or_insert_with(|| {
+                Inverse::new(&self.input.compiled, &self.set_parameters, time)
+            });
             match inverse.reference(x, rounding.max(near)) {
                 Ok(found) => Ok(Some(found)),
                 Err(Unplaced::Outside) => Ok(None),
@@ -166,7 +176,7 @@ impl Exact {
 
     /// Whether the material is of small strain, with one stress and one configuration.
     pub fn is_small_strain(&self) -> bool {
-        self.input.compiled.model.kind == Kind::SmallStrain
+        self.input.compiled.model.kind == Invariants::SmallStrain
     }
 
     /// The number of components of a quantity at a point.
@@ -187,7 +197,7 @@ impl Exact {
         time: f64,
         points: &[f64],
     ) -> anyhow::Result<Vec<f64>> {
-        let own = self.own(quantity, time, points)?;
+        let own = self.values_in_dimension(quantity, time, points)?;
         match Beyond::of(quantity, &self.input.compiled.model.kind)
             .filter(|_| self.tensors > self.space().rows())
         {
@@ -200,7 +210,7 @@ impl Exact {
     ///
     /// # Errors
     /// The errors of [`values`](Self::values).
-    pub fn own(
+    pub fn values_in_dimension(
         &mut self,
         quantity: Quantity,
         time: f64,
@@ -221,7 +231,7 @@ impl Exact {
         let (dimension, count) = (self.dimension, points.len() / self.dimension);
         let size = dimension * dimension;
         let of = match beyond.is_stress() {
-            true => NEEDED.map(|it| self.own(it, time, points)),
+            true => NEEDED.map(|it| self.values_in_dimension(it, time, points)),
             false => [Ok(vec![0.0; count * size]), Ok(vec![0.0; count]), Ok(vec![0.0; count])],
         };
         let [stress, pressure, jacobian] = of;

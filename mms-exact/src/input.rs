@@ -219,7 +219,7 @@ impl Input {
     ///
     /// # Errors
     /// Settings that contradict the field, or that it does not have.
-    pub fn hold(&self, settings: &[String]) -> anyhow::Result<()> {
+    pub fn validate_settings(&self, settings: &[String]) -> anyhow::Result<()> {
         if self.settings(settings)?.is_empty() {
             return Ok(());
         }

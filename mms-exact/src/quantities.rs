@@ -1,19 +1,19 @@
 //! Names of quantities, as users give them.
 
 use anyhow::Error;
-use mms_codegen::selection::{self, quantity};
+use mms_codegen::selection::{self, compiled_quantity};
 use mms_spec::own::Own;
 use mms_spec::quantity::Quantity;
 
 /// The compiled quantities with these names or aliases, each once, of a field with its `own` quantities; `all` means all
 /// quantities of a point and a time.
 pub fn quantities(own: &[Own], names: &[String]) -> anyhow::Result<Vec<Quantity>> {
-    named(own, names, quantity)
+    named(own, names, compiled_quantity)
 }
 
 /// The quantities of some names or aliases, with those on request, which `all` leaves out.
 pub fn evaluated(own: &[Own], names: &[String]) -> anyhow::Result<Vec<Quantity>> {
-    named(own, names, selection::evaluated)
+    named(own, names, selection::any_quantity)
 }
 
 fn named(

@@ -160,15 +160,15 @@ fn open_given(path: &Path) -> Result<File, Unread> {
 }
 
 fn open_where(path: &Path, fits: impl Fn(&Metadata) -> bool) -> Result<File, Unread> {
-    let hold = |found: Metadata| match fits(&found) {
+    let validate = |found: Metadata| match fits(&found) {
         true => Ok(()),
         false => Err(Unread::NotPlain(what(found.file_type()))),
     };
-    hold(fs::metadata(path).map_err(|error| lost(path, error))?)?;
+    validate(fs::metadata(path).map_err(|error| lost(path, error))?)?;
     #[expect(clippy::disallowed_methods, reason = "this is where files are opened")]
     let file = File::open(path)?;
     // The file may have been replaced since.
-    hold(file.metadata()?)?;
+    validate(file.metadata()?)?;
     Ok(file)
 }
 

@@ -274,7 +274,7 @@ impl Setting<'_> {
         let named = if is_path { path.to_string_lossy() } else { field.value.as_str().into() };
         let options = Options { variation, ..Options::default() };
         let input = (self.open)(&named).and_then(|source| Input::new(source, &options));
-        let input = input.and_then(|input| input.hold(&study.set).map(|()| input));
+        let input = input.and_then(|input| input.validate_settings(&study.set).map(|()| input));
         input.map_err(|error| {
             let why = format!("{error:#}");
             let (first, rest) = why.split_once('\n').unwrap_or((&why, ""));

@@ -1,6 +1,6 @@
 //! Files in the classic format of netCDF, in its three versions ("The NetCDF Classic Format Specification", Unidata).
 
-use crate::{Place, Set, Type, Value, letters};
+use crate::{Set, Storage, Type, Value, letters};
 
 /// The largest number of dimensions, variables or attributes of a list.
 const MOST: usize = 20_000;
@@ -188,7 +188,7 @@ impl Classic {
     fn set_at(&self, at: usize) -> Set {
         let Variable { name, axes, kind, .. } = &self.variables[at];
         let (path, shape) = (name.clone(), axes.clone());
-        Set { path, shape, kind: *kind, is_big: true, place: Place::Classic(at) }
+        Set { path, shape, kind: *kind, is_big: true, place: Storage::Classic(at) }
     }
 
     pub fn sets(&self) -> Vec<Set> {

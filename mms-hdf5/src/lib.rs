@@ -60,11 +60,11 @@ pub struct Set {
     pub kind: Type,
     /// Whether the most significant byte of a number is first.
     pub is_big: bool,
-    place: Place,
+    place: Storage,
 }
 
 /// The place of an array.
-enum Place {
+enum Storage {
     /// In HDF5; and whether the array is compressed there, and may be longer than the file.
     Tree(Box<hdf5_reader::Dataset>, bool),
     Classic(usize),
@@ -196,15 +196,15 @@ impl Store {
         let size = size.ok_or_else(|| Fault::of("expected floating-point numbers or integers"))?;
         let needed = set.count().and_then(|it| it.checked_mul(size));
         let needed = needed.ok_or_else(|| Fault::of("no file holds as many numbers"))?;
-        if matches!(set.place, Place::Tree(_, false)) && needed as u64 > self.length + LEAST {
+        if matches!(set.place, Storage::Tree(_, false)) && needed as u64 > self.length + LEAST {
             // None of the array may be stored: then all of it is one fill value.
             let what = format!("{needed} bytes, and the file has {}", self.length);
             return Err(Fault { what, is_foreign: true });
         }
-        self.hold(needed)?;
+        self.spend(needed)?;
         let bytes = match (&self.source, &set.place) {
-            (Source::Tree(_), Place::Tree(found, _)) => tree::bytes(found)?,
-            (Source::Classic(classic), Place::Classic(at)) => classic.bytes(*at, needed)?,
+            (Source::Tree(_), Storage::Tree(found, _)) => tree::bytes(found)?,
+            (Source::Classic(classic), Storage::Classic(at)) => classic.bytes(*at, needed)?,
             _ => return Err(Fault::of("it cannot be opened")),
         };
         match bytes.len() == needed {
@@ -224,12 +224,12 @@ impl Store {
         let most = set.count().filter(|it| *it <= MOST_WORDS.saturating_mul(64));
         let most = most.ok_or("more words than are read")?;
         match (set.kind, &self.source, &set.place) {
-            (Type::Words, Source::Tree(tree), Place::Tree(found, _)) => {
-                self.hold(found.raw_byte_len().map_err(|it| it.to_string())?)?;
+            (Type::Words, Source::Tree(tree), Storage::Tree(found, _)) => {
+                self.spend(found.raw_byte_len().map_err(|it| it.to_string())?)?;
                 tree.words(found, set.shape.last().copied())
             }
-            (Type::Words, Source::Classic(classic), Place::Classic(at)) => {
-                self.hold(most)?;
+            (Type::Words, Source::Classic(classic), Storage::Classic(at)) => {
+                self.spend(most)?;
                 let length = set.shape.last().copied().unwrap_or(1);
                 Ok(letters(&classic.bytes(*at, most)?, length))
             }
@@ -243,7 +243,7 @@ impl Store {
     }
 
     /// Subtracts decoded bytes from the budget.
-    fn hold(&self, bytes: usize) -> Result<(), String> {
+    fn spend(&self, bytes: usize) -> Result<(), String> {
         let left = self.left.get().checked_sub(bytes as u64);
         self.left.set(left.ok_or_else(|| format!("{bytes} bytes: the file cannot hold as many"))?);
         Ok(())

@@ -8,7 +8,7 @@ use hdf5_reader::{
     ByteOrder, Dataset, Datatype, FilterRegistry, Hdf5File, OpenOptions, RawAttribute, StringSize,
 };
 
-use crate::{Fault, MOST_WORDS, Place, Set, Type, Value, letters, lzf, word};
+use crate::{Fault, MOST_WORDS, Set, Storage, Type, Value, letters, lzf, word};
 
 /// The largest number of groups and arrays that are listed.
 const MOST_OBJECTS: usize = 20_000;
@@ -106,7 +106,7 @@ impl Tree {
             shape: Vec::new(),
             kind: Type::Other,
             is_big: false,
-            place: Place::Nowhere,
+            place: Storage::Nowhere,
         };
         let Some(found) = found else { return nowhere(path) };
         // Arrays may be the elements of an array.
@@ -123,7 +123,7 @@ impl Tree {
         let header = self.0.get_or_parse_header(found.address());
         let is_filter = |it: &HdfMessage| matches!(it, HdfMessage::FilterPipeline(_));
         let is_packed = header.is_ok_and(|it| it.messages.iter().any(is_filter));
-        Set { path, shape, kind, is_big, place: Place::Tree(Box::new(found), is_packed) }
+        Set { path, shape, kind, is_big, place: Storage::Tree(Box::new(found), is_packed) }
     }
 
     pub fn has_group(&self, path: &str) -> bool {

@@ -13,11 +13,11 @@ use std::sync::{Arc, OnceLock};
 use dashu_ratio::RBig;
 use mms_codegen::Compiled;
 use mms_mechanics::Response;
-use mms_mechanics::invariant::Kind;
+use mms_mechanics::invariant::Invariants;
 use mms_mechanics::{Bound, Output};
 use mms_program::Op;
 use mms_program::block::{
-    BlockMode, Blockwise, Component, Inputs, Outputs, Plan, Prepared, ScratchPool,
+    BlockMode, BlockPlan, Blockwise, Component, Inputs, Outputs, Prepared, ScratchPool,
 };
 use mms_program::interpret::Interpreter;
 use mms_runtime::axisymmetric::{energy_at_own_strain, stress_at_own_strain};
@@ -161,16 +161,16 @@ impl<T: Real + Blockwise> Interpreted<T> {
         output: Output,
         time: T,
         count: usize,
-        bring: &mut dyn FnMut(usize, &mut Inputs<'_, T>),
-        take: &mut dyn FnMut(usize, &Outputs<'_, T>),
+        write_inputs: &mut dyn FnMut(usize, &mut Inputs<'_, T>),
+        read_outputs: &mut dyn FnMut(usize, &Outputs<'_, T>),
     ) {
         let asked = self.asked.iter().find(|asked| asked.output == output);
         let asked = asked.expect("every output that is evaluated is listed");
         let prepared = asked.prepared.get_or_init(|| {
-            let plan = Plan::new(&self.compiled.program, &[output], Output::is_quantity);
+            let plan = BlockPlan::new(&self.compiled.program, &[output], Output::is_quantity);
             Prepared::new(Arc::new(plan), asked.mode, &self.parameters)
         });
-        asked.pool.with(|scratch| prepared.run(scratch, time, count, bring, take));
+        asked.pool.with(|scratch| prepared.run(scratch, time, count, write_inputs, read_outputs));
     }
 
     /// Evaluates an output of positions. `place` maps the index of a component to its place in the result of a point; some
@@ -373,7 +373,7 @@ impl<T: Real + Blockwise, const D: usize> Material<T, D> for Interpreted<T> {
     }
 
     fn is_small_strain(&self) -> bool {
-        self.compiled.model.kind == Kind::SmallStrain
+        self.compiled.model.kind == Invariants::SmallStrain
     }
 
     fn axisymmetric(&self) -> Option<&dyn Axisymmetric<T, D>> {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::thread;
 
 use mms_mechanics::{Output, Program};
-use mms_program::block::{BlockMode, Plan, Prepared, Scratch};
+use mms_program::block::{BlockMode, BlockPlan, Prepared, Scratch};
 
 /// The number of points from which on threads share them.
 const MANY: usize = 1 << 16;
@@ -17,7 +17,7 @@ pub struct AtPoints {
 impl AtPoints {
     /// Prepares the output, and computes the stages that depend on parameters alone.
     pub fn new(program: &Program, output: Output, parameters: &[f64]) -> Self {
-        let plan = Plan::new(program, &[output], Output::is_quantity);
+        let plan = BlockPlan::new(program, &[output], Output::is_quantity);
         AtPoints { prepared: Prepared::new(Arc::new(plan), BlockMode::portable(), parameters) }
     }
 

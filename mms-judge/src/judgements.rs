@@ -1,6 +1,6 @@
 //! Judged errors, and the document of a judgement.
 
-use mms_convergence::{Basis, Finding, Judgement, Level, RULE, TermKind, Verdict};
+use mms_convergence::{Basis, Judgement, NormFinding, RULE, SequenceLevel, TermKind, Verdict};
 use mms_diagnosis::follow::Follow;
 use mms_documents::Names;
 use mms_documents::judge as documents;
@@ -166,7 +166,7 @@ impl Judgements {
     }
 
     /// The levels of a norm, each with the order from the level before; empty for a grid of h and dt.
-    pub fn levels(&self, norm: &Norm) -> Vec<(Level, Option<f64>)> {
+    pub fn levels(&self, norm: &Norm) -> Vec<(SequenceLevel, Option<f64>)> {
         if self.refined == Refined::Grid {
             return Vec::new();
         }
@@ -305,7 +305,7 @@ impl Judgements {
         }
         let norms = NORMS.map(|name| norm(name).map(|it| self.levels(it)));
         let all = first.norms.first().map(|it| self.levels(it)).unwrap_or_default();
-        let level = |(at, (level, _)): (usize, &(Level, Option<f64>))| {
+        let level = |(at, (level, _)): (usize, &(SequenceLevel, Option<f64>))| {
             let errors = norms.each_ref().map(|levels| {
                 let found = levels.as_ref().map(|it| &it[at]);
                 let error = found.filter(|(it, _)| !it.errors.is_empty()).map(|(it, _)| it.error());
@@ -344,7 +344,7 @@ impl Judgements {
     }
 
     fn norm(&self, norm: &Norm) -> Vec<JudgedLevel> {
-        let level = |(level, order): (Level, Option<f64>)| JudgedLevel {
+        let level = |(level, order): (SequenceLevel, Option<f64>)| JudgedLevel {
             length: level.length,
             error: (!level.errors.is_empty()).then(|| level.error()),
             runs: level.errors,
@@ -399,11 +399,11 @@ fn row(
     documents::JudgeLevel { cell_size, time_step, runs, errors }
 }
 
-fn observed(finding: &Finding) -> Option<f64> {
+fn observed(finding: &NormFinding) -> Option<f64> {
     finding.estimate.map(|it| it.order)
 }
 
-fn interval(finding: &Finding) -> Option<[f64; 2]> {
+fn interval(finding: &NormFinding) -> Option<[f64; 2]> {
     finding.estimate.and_then(|it| it.interval)
 }
 
@@ -413,7 +413,7 @@ pub fn norms_judged(judgement: &Judgement) -> Vec<JudgedNorm> {
 }
 
 /// The finding of a norm.
-fn judged(judged: &mms_convergence::Judged) -> JudgedNorm {
+fn judged(judged: &mms_convergence::NormJudgement) -> JudgedNorm {
     let finding = &judged.finding;
     let basis = |basis| match basis {
         Basis::Scatter => "scatter",

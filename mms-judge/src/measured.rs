@@ -3,7 +3,7 @@
 //! [`table`](crate::table) reads them from a file. Code that computes errors from results makes a [`Measured`], too.
 
 use anyhow::bail;
-use mms_convergence::{Expected, Fit, Judgement, Sample, Sequence, Verdict, fit};
+use mms_convergence::{ExpectedOrder, Fit, Judgement, Sample, Sequence, Verdict, fit};
 use mms_spec::foreign::Foreign;
 
 /// Errors of some quantities in some runs.
@@ -39,7 +39,7 @@ pub struct Norm {
     /// `l1`, `l2`, `linf`, `h1`, or the name of the column.
     pub name: Foreign,
     /// The expected orders of the norm in h and, for a grid of h and dt, in dt.
-    pub expected: [Expected; 2],
+    pub expected: [ExpectedOrder; 2],
     /// The error in each run; `None` if the run stopped.
     pub errors: Vec<Option<f64>>,
     /// The error in each run below which it may be round-off alone; 0 if that is not known.

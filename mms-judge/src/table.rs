@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use anyhow::{Context as _, anyhow, bail};
 use csv::{ReaderBuilder, StringRecord};
-use mms_convergence::Expected;
+use mms_convergence::ExpectedOrder;
 use mms_spec::foreign;
 use mms_spec::foreign::shown;
 use mms_spec::suggest::did_you_mean;
@@ -95,7 +95,7 @@ impl Orders {
     }
 
     /// The expected orders of a norm of a quantity in this column, in h and in dt.
-    pub(super) fn of(&self, column: &str, quantity: &str, norm: &str) -> [Expected; 2] {
+    pub(super) fn of(&self, column: &str, quantity: &str, norm: &str) -> [ExpectedOrder; 2] {
         let usual = if norm == "h1" { self.of_gradients() } else { self.usual };
         let space = self.given(column, quantity, norm).unwrap_or(usual);
         let time = self.find(&[TIME]).map_or(self.usual, |(_, order)| *order);
@@ -103,8 +103,8 @@ impl Orders {
     }
 
     /// The range of orders that are expected around an order.
-    pub(super) fn expected(&self, order: f64) -> Expected {
-        Expected::new(order, self.tolerance)
+    pub(super) fn expected(&self, order: f64) -> ExpectedOrder {
+        ExpectedOrder::new(order, self.tolerance)
     }
 
     /// The given order of a norm of a quantity: given for both together, for the column, or for one of the two. The order of a

@@ -1,6 +1,6 @@
 //! The words between the parentheses of `field!`.
 
-use mms_codegen::selection::{Entry, Freeze, Selection, quantity};
+use mms_codegen::selection::{Entry, Freeze, Selection, compiled_quantity};
 use mms_spec::Form;
 use mms_spec::own::Own;
 use mms_spec::source;
@@ -120,8 +120,8 @@ impl Request {
         let Some(names) = &self.quantities else { return Ok(selection) };
         let wanted = selection.quantities.get_or_insert_default();
         for name in names {
-            let found =
-                quantity(own, &text(name)).map_err(|message| Error::new(name.span(), message))?;
+            let found = compiled_quantity(own, &text(name))
+                .map_err(|message| Error::new(name.span(), message))?;
             if !wanted.insert(found) {
                 let message = format!("`{}` is listed twice", found.name());
                 return Err(Error::new(name.span(), message));

@@ -246,7 +246,7 @@ where
         let [mut now, mut soon] = rooms.each_mut();
         let mut start = 0;
         while start < self.count {
-            self.source.bring(self.simd, start, now);
+            self.source.load(self.simd, start, now);
             let inputs = self.source.columns(start, now);
             T::on_block(first, &inputs, &mut made);
             T::on_block(second, &taken(&inputs, &made, reads), &mut results);
@@ -272,14 +272,14 @@ where
         let mut rooms = [Block::of(zero); 2];
         let [mut now, mut soon] = rooms.each_mut();
         let mut start = 0;
-        self.source.bring(self.simd, start, now);
+        self.source.load(self.simd, start, now);
         T::on_block(first, &self.source.columns(start, now), &mut made);
         while start < self.count {
             let inputs = self.source.columns(start, now);
             let next = start + T::BLOCK;
             // The last block is not after the loop: otherwise all code that stores results would exist twice.
             if next < self.count {
-                self.source.bring(self.simd, next, soon);
+                self.source.load(self.simd, next, soon);
                 let both = (&inputs, &self.source.columns(next, soon));
                 T::side_by_side((first, second), both, &mut made, &mut results, reads);
             } else {
@@ -308,7 +308,7 @@ where
         let (mut room, mut results) = (Block::of(zero), Block::of(zero));
         let mut start = 0;
         while start < self.count {
-            self.source.bring(self.simd, start, &mut room);
+            self.source.load(self.simd, start, &mut room);
             let inputs = self.source.columns(start, &room);
             T::on_block(function, &inputs, &mut results);
             self.store(start, &inputs, &results);

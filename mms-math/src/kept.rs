@@ -78,7 +78,7 @@ impl<T: Float, const K: usize> Source<T, K> for KeptColumns<'_, T, K> {
     }
 
     #[inline(always)]
-    fn bring<M: Simd<T>>(&self, _: M, _: usize, _: &mut Block<T, K>) {}
+    fn load<M: Simd<T>>(&self, _: M, _: usize, _: &mut Block<T, K>) {}
 
     #[inline(always)]
     fn columns<'a>(&'a self, start: usize, _: &'a Block<T, K>) -> Columns<'a, T, K> {

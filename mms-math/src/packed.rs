@@ -33,7 +33,7 @@ impl<T: Float, B: Numbers<T, N>, const N: usize> Source<T, N> for Packed<&[B], N
     }
 
     #[inline(always)]
-    fn bring<M: Simd<T>>(&self, simd: M, start: usize, room: &mut Block<T, N>) {
+    fn load<M: Simd<T>>(&self, simd: M, start: usize, room: &mut Block<T, N>) {
         self.copy(simd, start, &mut room.0);
     }
 

@@ -10,7 +10,7 @@ pub trait Source<T: Float, const N: usize> {
     fn count(&self) -> usize;
     /// Copies the points from `start` on to the buffer `room`, unless they are stored in columns. If there are fewer than a
     /// block has, copies of the first one pad the block: other values might be outside the domain.
-    fn bring<M: Simd<T>>(&self, simd: M, start: usize, room: &mut Block<T, N>);
+    fn load<M: Simd<T>>(&self, simd: M, start: usize, room: &mut Block<T, N>);
     /// The points from `start` on: in place, or in the buffer `room` that they were copied to.
     fn columns<'a>(&'a self, start: usize, room: &'a Block<T, N>) -> Columns<'a, T, N>;
 }
@@ -31,7 +31,7 @@ impl<T: Float, const N: usize> Source<T, N> for [&[T]; N] {
     }
 
     #[inline(always)]
-    fn bring<M: Simd<T>>(&self, _: M, start: usize, room: &mut Block<T, N>) {
+    fn load<M: Simd<T>>(&self, _: M, start: usize, room: &mut Block<T, N>) {
         for (column, lane) in self.iter().zip(&mut room.0) {
             if column[start..].len() < T::BLOCK {
                 fill(lane, &column[start..]);
@@ -76,7 +76,7 @@ impl<T: Float, const N: usize> Source<T, N> for &[[T; N]] {
     }
 
     #[inline(always)]
-    fn bring<M: Simd<T>>(&self, simd: M, start: usize, room: &mut Block<T, N>) {
+    fn load<M: Simd<T>>(&self, simd: M, start: usize, room: &mut Block<T, N>) {
         turn(simd, &self[start..], &mut room.0);
     }
 
@@ -117,7 +117,7 @@ impl<T: Float, A: Copied<T>, B: Copied<T>, const N: usize> Source<T, N> for (A, 
     }
 
     #[inline(always)]
-    fn bring<M: Simd<T>>(&self, simd: M, start: usize, room: &mut Block<T, N>) {
+    fn load<M: Simd<T>>(&self, simd: M, start: usize, room: &mut Block<T, N>) {
         const { assert!(A::NUMBERS + B::NUMBERS == N) };
         let (first, second) = room.0.split_at_mut(A::NUMBERS);
         self.0.copy(simd, start, first);

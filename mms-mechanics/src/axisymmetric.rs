@@ -76,7 +76,7 @@ pub(super) fn spreading(graph: &mut Graph, radius: Expr, flux: &[Expr]) -> Expr 
 /// The formulas of a field, as written in the file, whose quotients by R have no value on the axis.
 pub fn poles(graph: &mut Graph, model: &Model) -> Vec<Pole> {
     let Some(radius) = model.radius else { return Vec::new() };
-    graph.aside(|graph| {
+    graph.with_temporary_nodes(|graph| {
         let slope = derivative(graph, &model.displacement[1..2], Symbol::Coordinate(0))[0];
         let displacement = [model.displacement[0], slope, model.displacement[2]];
         let displacement = (0..3).map(|index| (Pole::Displacement(index), displacement[index]));

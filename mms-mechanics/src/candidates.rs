@@ -25,7 +25,7 @@ use mms_symbolic::pass::relations::{Relations, latest_stage};
 use mms_symbolic::sorted::SortedMap;
 
 /// The largest number of operations at a point of an accurate candidate, as a multiple of the cheapest candidate's.
-const DEAREST: usize = 2;
+const MAX_COST_RATIO: usize = 2;
 
 /// The components for each key.
 pub(super) type Components<K> = SortedMap<K, Vec<Expr>>;
@@ -175,6 +175,6 @@ fn choose<'a>(
         ways.retain(is_kept);
     }
     let least = costs[ways.first()?].per_point;
-    ways.retain(|way| costs[way].per_point <= DEAREST * least);
+    ways.retain(|way| costs[way].per_point <= MAX_COST_RATIO * least);
     accuracy.rounding.first(graph, &ways)
 }

@@ -11,11 +11,11 @@ use mms_symbolic::sorted::SortedMap;
 
 pub use crate::region::fixed_coordinate;
 
-/// The radius, among the coordinates of [`places`].
+/// The radius, among the coordinates of [`positions`].
 pub const RADIUS: Symbol = Symbol::Coordinate(0);
-/// The angle theta, among the coordinates of [`places`].
+/// The angle theta, among the coordinates of [`positions`].
 pub const ANGLE: Symbol = Symbol::Coordinate(1);
-/// The angle phi, among the coordinates of [`places`] in a sphere.
+/// The angle phi, among the coordinates of [`positions`] in a sphere.
 pub const POLAR_ANGLE: Symbol = Symbol::Coordinate(2);
 
 /// The arithmetic on formulas, for positions and directions.
@@ -72,7 +72,7 @@ pub fn normal(graph: &mut Graph, body: &Body, dimension: usize, face: Face) -> V
     normal
 }
 
-/// The outward unit normal of a face of a block, in the coordinates of [`places`].
+/// The outward unit normal of a face of a block, in the coordinates of [`positions`].
 pub fn direction(graph: &mut Graph, body: &Body, face: Face) -> [Expr; 3] {
     let system = match body {
         Region::Block(block) => block.system,
@@ -116,7 +116,7 @@ fn radius(graph: &mut Graph, count: usize) -> Expr {
 
 /// Substitutions for X, Y and Z: their formulas in the coordinates in which the body is a block. The map is empty for a box. On
 /// an edge of a polygon the only coordinate is the fraction along the edge, under the symbol of X.
-pub fn places(graph: &mut Graph, body: &Body, face: Option<Face>) -> SortedMap<Symbol, Expr> {
+pub fn positions(graph: &mut Graph, body: &Body, face: Option<Face>) -> SortedMap<Symbol, Expr> {
     let symbols = coordinates(graph);
     let place = match (body, face) {
         (Region::Block(Block { system, bounds }), _) if *system != System::Cartesian => {
@@ -137,7 +137,7 @@ pub fn places(graph: &mut Graph, body: &Body, face: Option<Face>) -> SortedMap<S
     (0..place.len()).map(Symbol::Coordinate).zip(place).collect()
 }
 
-/// The bounds of the coordinates of [`places`] on the body or on a face, without those that are constant there.
+/// The bounds of the coordinates of [`positions`] on the body or on a face, without those that are constant there.
 pub fn ranges(graph: &mut Graph, body: &Body, face: Option<Face>) -> Vec<(Symbol, [Expr; 2])> {
     match (body, face) {
         (Region::Block(block), _) => {
@@ -161,7 +161,7 @@ pub fn ranges(graph: &mut Graph, body: &Body, face: Option<Face>) -> Vec<(Symbol
     }
 }
 
-/// The coordinate of [`places`] that is constant on a face, and its value.
+/// The coordinate of [`positions`] that is constant on a face, and its value.
 pub fn constant(body: &Body, face: Face) -> SortedMap<Symbol, Expr> {
     let Region::Block(block) = body else { return SortedMap::new() };
     let (axis, bound) = block.fixed(face);
@@ -241,7 +241,7 @@ fn edge_normal(graph: &mut Graph, vertices: &[[Expr; 2]], first: usize) -> Vec<E
 
 /// The faces that a body has with these values of its parameters: there is no face at a radius of 0, at the ends of a whole
 /// turn, or at an angle along the axis. `declared` are the faces of its shape.
-pub fn present(
+pub fn existing_faces(
     graph: &mut Graph,
     body: &Body,
     declared: Vec<Face>,

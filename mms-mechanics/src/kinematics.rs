@@ -7,7 +7,7 @@
 use crate::amplitude::{Amplitude, rewritten};
 use crate::axisymmetric;
 use crate::invariant::{
-    EXCESS, FIBRE, FIRST, Kind, MINORS, SECOND, SMALL_SQUARE, SMALL_TRACE, VOLUME,
+    EXCESS, FIBRE, FIRST, Invariants, MINORS, SECOND, SMALL_SQUARE, SMALL_TRACE, VOLUME,
 };
 use crate::model::Model;
 use crate::samples::cancel;
@@ -82,7 +82,12 @@ pub struct Fibre {
 impl Strain {
     /// Computes the strain from the displacement gradient, every part reduced modulo `relations`, with the invariants of this
     /// kind of density.
-    pub fn new(graph: &mut Graph, gradient: Tensor, kind: &Kind, relations: &Relations) -> Self {
+    pub fn new(
+        graph: &mut Graph,
+        gradient: Tensor,
+        kind: &Invariants,
+        relations: &Relations,
+    ) -> Self {
         let identity = Tensor::identity(graph, gradient.dimension());
         let gradient = gradient.reduce(graph, relations);
         let deformation = identity.add(graph, &gradient);
@@ -107,7 +112,7 @@ impl Strain {
     pub fn without_cancellation(
         graph: &mut Graph,
         gradient: Tensor,
-        kind: &Kind,
+        kind: &Invariants,
         [whole, relations]: [&Relations; 2],
         amplitude: Option<&Amplitude>,
     ) -> Self {
@@ -143,7 +148,12 @@ impl Strain {
 
     /// Computes the strain from F = I + H, with J its determinant and C - I = F^T F - I: fewer operations, and errors of the
     /// size of eps for any strain.
-    pub fn direct(graph: &mut Graph, gradient: Tensor, kind: &Kind, relations: &Relations) -> Self {
+    pub fn direct(
+        graph: &mut Graph,
+        gradient: Tensor,
+        kind: &Invariants,
+        relations: &Relations,
+    ) -> Self {
         let identity = Tensor::identity(graph, gradient.dimension());
         let gradient = gradient.reduce(graph, relations);
         let deformation = identity.add(graph, &gradient);
@@ -169,16 +179,18 @@ impl Strain {
         graph: &mut Graph,
         Tensors { gradient, deformation, right, left }: Tensors,
         [volume, excess]: [Expr; 2],
-        kind: &Kind,
+        kind: &Invariants,
         [relations, of_inverse]: [&Relations; 2],
     ) -> Self {
         let mut invariants: Vec<Expr> = match kind {
-            Kind::Isotropic | Kind::Fibrous(_) => first_invariants(graph, &gradient, &right).into(),
-            Kind::SmallStrain => small_invariants(graph, &gradient).into(),
+            Invariants::Isotropic | Invariants::Fibrous(_) => {
+                first_invariants(graph, &gradient, &right).into()
+            }
+            Invariants::SmallStrain => small_invariants(graph, &gradient).into(),
         };
         let fibre = match kind {
-            Kind::Fibrous(reference) => Some(Fibre::new(graph, reference, &deformation)),
-            Kind::Isotropic | Kind::SmallStrain => None,
+            Invariants::Fibrous(reference) => Some(Fibre::new(graph, reference, &deformation)),
+            Invariants::Isotropic | Invariants::SmallStrain => None,
         };
         invariants.push(volume);
         invariants.extend(fibre.as_ref().map(|fibre| fibre.stretch(graph, &right)));
@@ -186,8 +198,8 @@ impl Strain {
         let one = graph.number(1);
         let jacobian = graph.add(one, invariants[2]);
         let symbols = match kind {
-            Kind::Isotropic | Kind::Fibrous(_) => [FIRST, SECOND, VOLUME, FIBRE],
-            Kind::SmallStrain => [SMALL_TRACE, SMALL_SQUARE, VOLUME, FIBRE],
+            Invariants::Isotropic | Invariants::Fibrous(_) => [FIRST, SECOND, VOLUME, FIBRE],
+            Invariants::SmallStrain => [SMALL_TRACE, SMALL_SQUARE, VOLUME, FIBRE],
         };
         let mut invariants: SortedMap<Symbol, Expr> = symbols.into_iter().zip(invariants).collect();
         let minors = right.principal_minors(graph, 2);
@@ -323,8 +335,8 @@ impl Motion {
             }
         };
         let fibre_gradient = match kind {
-            Kind::Fibrous(direction) => Some(gradient_of(graph, model, direction)),
-            Kind::Isotropic | Kind::SmallStrain => None,
+            Invariants::Fibrous(direction) => Some(gradient_of(graph, model, direction)),
+            Invariants::Isotropic | Invariants::SmallStrain => None,
         };
         let amplitude = match route {
             Route::Settled(amplitude) => amplitude,
@@ -348,7 +360,7 @@ impl Motion {
         };
         if !relations.is_empty() && !matches!(route, Route::Settled(_)) {
             motion.differentiate_invariants(graph, relations);
-        } else if *kind == Kind::SmallStrain {
+        } else if *kind == Invariants::SmallStrain {
             motion.contract_small_strain(graph);
         } else {
             motion.contract_invariants(graph);

@@ -8,7 +8,7 @@ mod written;
 
 pub use superposed::{RigidMotion, Rotation};
 
-use crate::invariant::Kind;
+use crate::invariant::Invariants;
 use crate::meanings::Meanings;
 use crate::region::Region;
 use crate::resolve::Scope;
@@ -101,7 +101,7 @@ pub struct Model {
     /// W, as a function of the material's invariants.
     pub energy: Expr,
     /// The invariants that W is a function of, and the direction of the fibres.
-    pub kind: Kind,
+    pub kind: Invariants,
     /// a0 in space, if W is a function of I4.
     pub fibre: Option<Vec<Expr>>,
     /// Poisson's ratio, if the field states it instead of the material's own moduli.
@@ -195,7 +195,7 @@ impl Model {
         };
         let written = reader.written();
         let extremes = reader.extremes(field);
-        reader.strays(field);
+        reader.check_stray_formulas(field);
         reader.within_bound(field, reported);
         Some(Model {
             parameters: parameters?,
@@ -227,8 +227,8 @@ impl Model {
     pub fn in_space(&self) -> Vec<Expr> {
         let fibre = self.fibre.iter().flatten();
         let direction = match &self.kind {
-            Kind::Fibrous(direction) => &direction[..],
-            Kind::Isotropic | Kind::SmallStrain => &[],
+            Invariants::Fibrous(direction) => &direction[..],
+            Invariants::Isotropic | Invariants::SmallStrain => &[],
         };
         let others = self.arguments.iter().chain(fibre).chain(direction).chain(&self.poisson);
         let own = self.givens.iter().chain(self.own.values().flatten());
@@ -244,7 +244,7 @@ impl Model {
     }
 
     /// Replaces the formulas that may depend on X, the closed forms and the named definitions.
-    pub fn map_in_space(&mut self, mut made: impl FnMut(&[Expr]) -> Vec<Expr>) {
+    pub fn map_formulas_of_x(&mut self, mut made: impl FnMut(&[Expr]) -> Vec<Expr>) {
         for exprs in [&mut self.displacement, &mut self.arguments, &mut self.givens] {
             *exprs = made(exprs);
         }
@@ -257,7 +257,7 @@ impl Model {
         self.fibre = self.fibre.as_deref().map(&mut made);
         self.radius = self.radius.map(|radius| made(&[radius])[0]);
         self.poisson = self.poisson.map(|poisson| made(&[poisson])[0]);
-        if let Kind::Fibrous(direction) = &mut self.kind {
+        if let Invariants::Fibrous(direction) = &mut self.kind {
             *direction = made(direction);
         }
         for check in &mut self.checks {
@@ -461,7 +461,7 @@ impl Reader<'_> {
     }
 
     /// Formulas of keys that were refused.
-    fn strays(&mut self, field: &FieldSpec) {
+    fn check_stray_formulas(&mut self, field: &FieldSpec) {
         for stray in &field.stray {
             syntax::parse(stray, self.diagnostics);
         }
@@ -497,7 +497,10 @@ impl Reader<'_> {
 }
 
 /// Converts set values to expressions.
-pub fn as_set(graph: &mut Graph, set: &SortedMap<usize, Rational>) -> SortedMap<usize, Expr> {
+pub fn set_expressions(
+    graph: &mut Graph,
+    set: &SortedMap<usize, Rational>,
+) -> SortedMap<usize, Expr> {
     set.iter().map(|(index, value)| (*index, graph.number(value.clone()))).collect()
 }
 

@@ -26,7 +26,7 @@ pub fn about_its_place(graph: &mut Graph, model: &mut Model) {
         graph.add(offset, place)
     });
     if !offsets.is_empty() {
-        model.map_in_space(|exprs| substitute(graph, exprs, &offsets));
+        model.map_formulas_of_x(|exprs| substitute(graph, exprs, &offsets));
     }
 }
 
@@ -86,7 +86,7 @@ fn subtracted(graph: &mut Graph, model: &Model) -> SortedSet<Expr> {
 
 /// Whether the fields contain a parameter only in differences from coordinates.
 fn is_about(graph: &mut Graph, model: &Model, axes: &[usize], parameter: Expr) -> bool {
-    graph.aside(|graph| {
+    graph.with_temporary_nodes(|graph| {
         let places = axes.iter().map(|axis| (*axis, parameter));
         let moved = coordinates(graph, places, Graph::add);
         let fields = substitute(graph, &model.in_space(), &moved);

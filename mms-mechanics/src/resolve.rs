@@ -6,7 +6,7 @@ use mms_spec::diagnostic::{Diagnostic, MAX_RENDERED};
 use mms_spec::language::{FUNCTIONS, elsewhere};
 use mms_spec::source::{Span, Spanned};
 use mms_spec::suggest::advice;
-use mms_spec::syntax::{Ast, Kind, Operator};
+use mms_spec::syntax::{Ast, NodeKind, Operator};
 use mms_symbolic::expr::{Expr, Function, Graph, Rational, Symbol};
 use mms_symbolic::sorted::{SortedMap, SortedSet};
 
@@ -190,25 +190,25 @@ impl Resolver<'_> {
     /// Resolves a node. Each node is the operand of one other, so its value can be moved.
     fn node(
         &mut self,
-        kind: &Kind,
+        kind: &NodeKind,
         span: Span,
         ast: &Ast,
         values: &mut [Option<Partial>],
     ) -> Option<Partial> {
         let expr = match kind {
-            Kind::Number(number) => Some(self.graph.number(number.clone())),
-            Kind::Name(name) => self.name(name, span),
-            Kind::Negate(operand) => {
+            NodeKind::Number(number) => Some(self.graph.number(number.clone())),
+            NodeKind::Name(name) => self.name(name, span),
+            NodeKind::Negate(operand) => {
                 let operand = values[*operand].take()?.finish(self.graph);
                 Some(self.graph.scale(operand, -1))
             }
-            Kind::Binary(operator, left, right) => {
+            NodeKind::Binary(operator, left, right) => {
                 let (a, b) = (values[*left].take(), values[*right].take());
                 let b = b.map(|b| b.finish(self.graph));
                 let (left, right) = (ast.nodes[*left].span, ast.nodes[*right].span);
                 return self.binary(*operator, a?, b?, [span, left, right]);
             }
-            Kind::Call { name, arguments } => {
+            NodeKind::Call { name, arguments } => {
                 let spans: Vec<_> = arguments.iter().map(|index| ast.nodes[*index].span).collect();
                 let values: Vec<_> = arguments
                     .iter()

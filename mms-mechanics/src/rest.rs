@@ -1,6 +1,6 @@
 //! The material at F = I, in three dimensions for every field, with each given field in its state of rest.
 
-use crate::invariant::Kind;
+use crate::invariant::Invariants;
 use crate::kinematics::Strain;
 use crate::material::{self, Law};
 use crate::model::{Model, energy_with};
@@ -13,7 +13,7 @@ use mms_symbolic::pass::relations::Relations;
 /// The stress and the stiffness at F = I: 9 components of P and 81 of dP/dF, the last index fastest.
 pub fn at_rest(graph: &mut Graph, model: &Model) -> [Vec<Expr>; 2] {
     let kind = match (&model.kind, &model.fibre) {
-        (Kind::Fibrous(_), Some(fibre)) => Kind::Fibrous(fibre.clone()),
+        (Invariants::Fibrous(_), Some(fibre)) => Invariants::Fibrous(fibre.clone()),
         (kind, _) => kind.clone(),
     };
     let strain = undeformed(graph, &kind);
@@ -62,7 +62,9 @@ pub fn is_spherical(graph: &Graph, components: &[Expr]) -> bool {
 /// modulus along them.
 pub fn moduli(graph: &mut Graph, model: &Model) -> Vec<(&'static str, Expr)> {
     let kind = match &model.kind {
-        Kind::Fibrous(_) => Kind::Fibrous([1, 0, 0].map(|entry| graph.number(entry)).to_vec()),
+        Invariants::Fibrous(_) => {
+            Invariants::Fibrous([1, 0, 0].map(|entry| graph.number(entry)).to_vec())
+        }
         kind => kind.clone(),
     };
     let strain = undeformed(graph, &kind);
@@ -75,11 +77,11 @@ pub fn moduli(graph: &mut Graph, model: &Model) -> Vec<(&'static str, Expr)> {
         [[0, 0, 0, 0], [0, 0, 1, 1], [1, 1, 1, 1], [1, 1, 2, 2]].map(entry);
     let mut sum = |terms: [(Expr, Rational); 2]| graph.sum(terms);
     match kind {
-        Kind::Isotropic | Kind::SmallStrain => {
+        Invariants::Isotropic | Invariants::SmallStrain => {
             let dilatation = sum([(along, Rational::ONE), (coupling, 2.into())]);
             vec![("mu", shear), ("3 lambda + 2 mu", dilatation)]
         }
-        Kind::Fibrous(_) => {
+        Invariants::Fibrous(_) => {
             let turned = sum([(across, HALF), (sideways, -HALF)]);
             let around = sum([(across, Rational::ONE), (sideways, Rational::ONE)]);
             let square = graph.power(coupling, 2);
@@ -95,7 +97,7 @@ pub fn moduli(graph: &mut Graph, model: &Model) -> Vec<(&'static str, Expr)> {
     }
 }
 
-fn undeformed(graph: &mut Graph, kind: &Kind) -> Strain {
+fn undeformed(graph: &mut Graph, kind: &Invariants) -> Strain {
     let gradient = Tensor::from_fn(3, |_, _| graph.number(0));
     Strain::new(graph, gradient, kind, &Relations::default())
 }

@@ -202,7 +202,7 @@ impl MethodOptions {
             true => input.validate_static()?,
             false => input.validate_moving()?,
         }
-        input.hold(settings)?;
+        input.validate_settings(settings)?;
         let mut method = self.method(input.compiled.field.dimension)?;
         self.validate_end(input, settings)?;
         self.validate_precision(input, settings)?;

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 
 use crate::sampled::sampled_count;
 
-use mms_program::block::{BlockMode, Blockwise, Plan, Prepared, Scratch, ScratchPool};
+use mms_program::block::{BlockMode, BlockPlan, Blockwise, Prepared, Scratch, ScratchPool};
 use mms_program::interpret::{Interpreter, Point};
 use mms_program::{Instr, Op, Value};
 use mms_symbolic::expr::Stage;
@@ -80,8 +80,8 @@ fn program(recipe: &[(u8, u16, u16)]) -> Program {
 }
 
 /// The plan as compiled code computes the outputs.
-fn plan_of(program: &Program, outputs: &[Output]) -> Plan {
-    Plan::new(program, outputs, |output| output == Output::TwoLoops)
+fn plan_of(program: &Program, outputs: &[Output]) -> BlockPlan {
+    BlockPlan::new(program, outputs, |output| output == Output::TwoLoops)
 }
 
 fn quantity() -> Output {
@@ -205,7 +205,7 @@ fn agree<T: Blockwise>(found: &[Vec<T>], expected: &[Vec<T>], what: impl std::fm
     }
 }
 
-fn prepared<T: Blockwise>(plan: &Arc<Plan>, mode: BlockMode) -> Prepared<T> {
+fn prepared<T: Blockwise>(plan: &Arc<BlockPlan>, mode: BlockMode) -> Prepared<T> {
     Prepared::new(plan.clone(), mode, &PARAMETERS.map(T::from_f64))
 }
 
@@ -424,7 +424,7 @@ fn fused_products_round_once_or_twice_as_they_should() {
 }
 
 /// If products are fused, the result equals the sum in twice the digits: a product of two numbers is exact there.
-fn validate_to_one_rounding(program: &Program, plan: &Arc<Plan>) {
+fn validate_to_one_rounding(program: &Program, plan: &Arc<BlockPlan>) {
     let points = given::<f64>(40, &MILD);
     let wide: Vec<_> = given::<Double>(40, &MILD);
     let expected = one_by_one(program, &[Output::Expected(0)], &wide);

@@ -6,7 +6,7 @@ use std::thread;
 
 use mms_mechanics::{Output, Program};
 use mms_program::block::{
-    BlockMode, Blockwise, Inputs, Outputs, Plan, PointCache, Prepared, Scratch, ScratchPool,
+    BlockMode, BlockPlan, Blockwise, Inputs, Outputs, PointCache, Prepared, Scratch, ScratchPool,
 };
 use mms_symbolic::expr::Symbol;
 use numpy::Element;
@@ -97,7 +97,7 @@ pub struct Odd {
 impl<T: Precision> Evaluator<T> {
     /// Creates an evaluator, and computes the stage Parameter.
     pub fn new(program: &Program, output: Output, components: usize, parameters: &[T]) -> Self {
-        let plan = Arc::new(Plan::new(program, &[output], Output::is_quantity));
+        let plan = Arc::new(BlockPlan::new(program, &[output], Output::is_quantity));
         let prepared = Prepared::new(plan, BlockMode::portable(), parameters);
         Evaluator { prepared, pool: ScratchPool::default(), components }
     }
@@ -167,7 +167,7 @@ impl<T: Precision> Evaluator<T> {
         if gradients.is_empty() {
             return self.prepared.at_points(scratch, time, dimension, [points, normals], values);
         }
-        let mut bring = |start: usize, inputs: &mut Inputs<'_, T>| {
+        let mut write_inputs = |start: usize, inputs: &mut Inputs<'_, T>| {
             for (symbol, column) in inputs.columns() {
                 let (numbers, each, at) = match symbol {
                     Symbol::Coordinate(axis) => (points, dimension, axis),
@@ -179,13 +179,13 @@ impl<T: Precision> Evaluator<T> {
             }
         };
         let components = self.components;
-        let mut take = |start: usize, outputs: &Outputs<'_, T>| {
+        let mut read_outputs = |start: usize, outputs: &Outputs<'_, T>| {
             let own = &mut values[start * components..][..outputs.count() * components];
             for (index, component) in outputs.components(0).enumerate() {
                 component.write(own[index..].iter_mut().step_by(components));
             }
         };
-        self.prepared.run(scratch, time, count, &mut bring, &mut take);
+        self.prepared.run(scratch, time, count, &mut write_inputs, &mut read_outputs);
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::Path;
 
-use mms_convergence::{CONSTANT_TOLERANCE, Expected, Fit, Judgement, RULE, Verdict, is_near};
+use mms_convergence::{CONSTANT_TOLERANCE, ExpectedOrder, Fit, Judgement, RULE, Verdict, is_near};
 use mms_documents::Names;
 use mms_documents::provenance::Provenance;
 use mms_documents::study::{self as documents, LevelErrors, StudyErrors, StudyOfMethod};
@@ -44,7 +44,7 @@ pub struct Study {
     /// The difference of each level from the next, in a study in time.
     pub differences: Option<Series>,
     /// The expected order and its tolerance.
-    pub expected: Expected,
+    pub expected: ExpectedOrder,
     /// The judgement of the errors.
     pub judgement: Judgement,
     /// The outcome: `fail` also if a level was not started, or if the error constant is not the expected one.

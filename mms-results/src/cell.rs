@@ -16,16 +16,16 @@ use std::sync::{LazyLock, OnceLock};
 
 use functions::{Functions, Products, Solved};
 pub(crate) use lagrange::last_edges;
-use rows::{HEX, ROWS, Row};
+use rows::{CellType, HEX, ROWS};
 
 /// Reference coordinates; 0 beyond the dimension.
 pub type Local = [f64; 3];
 
 /// The least number of Gauss points along an axis.
-const ALONG: u32 = 5;
+const LEAST_GAUSS_POINTS: u32 = 5;
 /// The number of Gauss points along an axis less the degree of the cell. For a cell of degree d, the rule integrates the square
 /// of a polynomial of degree d + 2 exactly, or of degree d + 1 on a triangle.
-const BEYOND: u32 = 3;
+const POINTS_ABOVE_DEGREE: u32 = 3;
 
 /// The most corners of a polygon.
 const MOST_SIDES: usize = 64;
@@ -194,7 +194,7 @@ impl Shape {
         SHAPES.iter()
     }
 
-    fn of_row(&(kind, dimension, corners, between, space): &Row) -> Shape {
+    fn of_row(&(kind, dimension, corners, between, space): &CellType) -> Shape {
         let middle = |of: &&[usize]| {
             std::array::from_fn(|axis| {
                 of.iter().map(|&corner| corners[corner][axis]).sum::<f64>() / of.len() as f64
@@ -254,7 +254,7 @@ impl Shape {
 
     /// The number of Gauss points along an axis.
     pub(crate) fn along(&self) -> usize {
-        ALONG.max(self.highest() + BEYOND) as usize
+        LEAST_GAUSS_POINTS.max(self.highest() + POINTS_ABOVE_DEGREE) as usize
     }
 
     /// The highest degree along an axis.

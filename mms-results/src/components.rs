@@ -1,7 +1,7 @@
 //! The parts of a quantity in the components of an array, by the component names in the file.
 
 use crate::axes::Axes;
-use crate::meaning::{Column, Part, Place, array};
+use crate::meaning::{ArrayPlace, Column, Part, array};
 use crate::{Array, Snapshot};
 
 /// The part of each component: by its name if names give axes, as XX, YY, XY or x, y, z, otherwise by its position.
@@ -20,7 +20,7 @@ pub(crate) fn has_names(array: &Array, axes: Axes) -> bool {
 /// The parts of columns by their names, if these are all components of one array and give axes.
 pub(crate) fn of_columns(snapshot: &Snapshot, columns: &[Column], axes: Axes) -> Option<Vec<Part>> {
     let array: &Array = array(snapshot, columns.first()?.place);
-    let place: Place = columns[0].place;
+    let place: ArrayPlace = columns[0].place;
     let is_next = |(at, it): (usize, &Column)| it.place == place && it.component == at;
     let is_whole = columns.len() == array.components && columns.iter().enumerate().all(is_next);
     by_name(&array.component_names, axes).filter(|it| is_whole && it.len() == columns.len())

@@ -2,7 +2,7 @@
 
 use crate::axes::Axes;
 use crate::components::of_columns;
-use crate::meaning::{Column, Meaning, Part, Place, Why};
+use crate::meaning::{ArrayPlace, Column, Meaning, Part, Why};
 use crate::parts::{all_names, arrays, part_of};
 use crate::role::{OwnRole, Role};
 use crate::{Array, Mistake, Snapshot};
@@ -82,7 +82,7 @@ pub(crate) fn components(
     if arrays(snapshot).any(|(_, array)| array.name == *name) {
         return None;
     }
-    let part = |(place, array): (Place, &Array)| {
+    let part = |(place, array): (ArrayPlace, &Array)| {
         let part = part_of(&array.name, name, axes).filter(|_| array.components == 1)?;
         Some((part, Column { place, component: 0 }))
     };
@@ -95,9 +95,11 @@ pub(crate) fn whole<'a>(snapshot: &'a Snapshot, name: &str) -> Option<(&'a Array
     let bare = |name: &'_ str| name.trim_start_matches('/').to_owned();
     let is_called = |array: &Array| array.name == name || bare(&array.name) == bare(name);
     let (place, array) = arrays(snapshot).find(|(place, array)| match place {
-        Place::Grid => name == "points" || array.name == name,
-        Place::Points(_) => is_called(array),
-        Place::Cells(_) => is_called(array) || name.strip_prefix("cells:") == Some(&array.name),
+        ArrayPlace::Grid => name == "points" || array.name == name,
+        ArrayPlace::Points(_) => is_called(array),
+        ArrayPlace::Cells(_) => {
+            is_called(array) || name.strip_prefix("cells:") == Some(&array.name)
+        }
     })?;
     let columns = (0..array.components).map(|component| Column { place, component });
     Some((array, columns.collect()))

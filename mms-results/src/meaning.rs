@@ -28,7 +28,7 @@ pub(crate) enum Part {
 
 /// The place of an array in a snapshot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Place {
+pub(crate) enum ArrayPlace {
     /// The places of the points.
     Grid,
     /// An array of points, by its position.
@@ -40,7 +40,7 @@ pub(crate) enum Place {
 /// A column of numbers: one component of an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Column {
-    pub place: Place,
+    pub place: ArrayPlace,
     pub component: usize,
 }
 
@@ -123,7 +123,7 @@ impl Meaning {
     /// The reason why an array is not the quantity of its name in this dimension: other components, another number of rows than
     /// points, or a strain too large for any bar, because Young's modulus may be called E as well. `None` if it may be the
     /// quantity, if a user maps it, or if only the order of its components is unknown.
-    pub fn unlike(
+    pub fn mismatch(
         &self,
         snapshot: &Snapshot,
         dimension: usize,
@@ -146,7 +146,7 @@ impl Meaning {
         }
         let columns = || self.columns.iter().map(|(_, column)| column);
         let is_odd = |column: &&Column| match column.place {
-            Place::Cells(_) => array(column).rows() != snapshot.cells.len(),
+            ArrayPlace::Cells(_) => array(column).rows() != snapshot.cells.len(),
             _ => points.is_some_and(|points| array(column).rows() != points),
         };
         if let Some(odd) = columns().find(is_odd) {
@@ -189,7 +189,7 @@ impl Meaning {
         }
         self.validate_flat(snapshot, dimension)?;
         let numbers = gathered(snapshot, &columns, rows);
-        let is_of_cells = matches!(first.place, Place::Cells(_));
+        let is_of_cells = matches!(first.place, ArrayPlace::Cells(_));
         let largest = match is_of_cells {
             true => largest_of_cells(snapshot, &numbers, columns.len()),
             false => largest_if_finite(&numbers),
@@ -314,7 +314,7 @@ impl Meaning {
         let array = |column: &Column| array(snapshot, column.place);
         let mut parts = Vec::new();
         if let Some((_, first)) = self.columns.first() {
-            let of = if matches!(first.place, Place::Cells(_)) { "cells" } else { "points" };
+            let of = if matches!(first.place, ArrayPlace::Cells(_)) { "cells" } else { "points" };
             match self.is_one_array() {
                 true => {
                     parts.push(format!("`{}` of {of} ({})", self.source, array(first).described()))
@@ -549,19 +549,19 @@ fn gathered<'a>(snapshot: &'a Snapshot, columns: &[Option<Column>], rows: usize)
     numbers.into()
 }
 
-pub(crate) fn array(snapshot: &Snapshot, place: Place) -> &Array {
+pub(crate) fn array(snapshot: &Snapshot, place: ArrayPlace) -> &Array {
     match place {
-        Place::Points(at) => &snapshot.of_points[at],
-        Place::Cells(at) => &snapshot.of_cells[at],
-        Place::Grid => {
+        ArrayPlace::Points(at) => &snapshot.of_points[at],
+        ArrayPlace::Cells(at) => &snapshot.of_cells[at],
+        ArrayPlace::Grid => {
             snapshot.points.as_ref().expect("a meaning is of the snapshot that it was found in")
         }
     }
 }
 
 /// The name of an array in `--map`.
-pub(crate) fn name(snapshot: &Snapshot, place: Place) -> &str {
-    if place == Place::Grid { "points" } else { &array(snapshot, place).name }
+pub(crate) fn name(snapshot: &Snapshot, place: ArrayPlace) -> &str {
+    if place == ArrayPlace::Grid { "points" } else { &array(snapshot, place).name }
 }
 
 /// A mistake at a point.

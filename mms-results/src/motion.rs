@@ -51,7 +51,7 @@ pub fn resolve<'a>(
     snapshot: &'a Snapshot,
     meanings: &[Meaning],
     dimension: usize,
-    outside: &dyn Body,
+    body: &dyn Body,
     back: Option<Back<'_>>,
 ) -> Result<Motion<'a>, Mistake> {
     let of = |role: Role| meanings.iter().find(|meaning| meaning.role == role);
@@ -75,16 +75,15 @@ pub fn resolve<'a>(
         displacement: of_size(Role::Displacement, vector)?.filter(|it| !it.is_of_cells),
     };
     if turns {
-        return known.turning(outside);
+        return known.resolve_with_swirl(body);
     }
     known.validate_rows().map_err(|mistake| mistake.of(&snapshot.path))?;
     known.is_called_x &= known.reference.is_some();
     let given = (known.reference.take(), known.displacement.take());
-    let motion =
-        known.motion(given, outside, back).map_err(|mistake| mistake.of(&snapshot.path))?;
+    let motion = known.motion(given, body, back).map_err(|mistake| mistake.of(&snapshot.path))?;
     known.validate_agreement(&motion)?;
     if !motion.is_inverse {
-        validate_inside(snapshot, &motion, outside)?;
+        validate_inside(snapshot, &motion, body)?;
     }
     Ok(motion)
 }
@@ -139,7 +138,7 @@ impl<'a> Known<'a> {
     }
 
     /// X and u of a rotating body, whose points are X by default.
-    fn turning(self, outside: &dyn Body) -> Result<Motion<'a>, Mistake> {
+    fn resolve_with_swirl(self, body: &dyn Body) -> Result<Motion<'a>, Mistake> {
         let (snapshot, path) = (self.snapshot, &self.snapshot.path);
         let found = match (self.reference, self.place) {
             (Some(x), _) => Some((x, "X as given")),
@@ -151,7 +150,7 @@ impl<'a> Known<'a> {
         let what = "X is not known: give R and Z, for points of the body move along the hoop";
         let (x, how) = found.ok_or_else(|| Mistake::new(what).of(path))?;
         let motion = motion(x, self.displacement, how);
-        validate_inside(snapshot, &motion, outside)?;
+        validate_inside(snapshot, &motion, body)?;
         Ok(motion)
     }
 
@@ -159,7 +158,7 @@ impl<'a> Known<'a> {
     fn motion(
         &self,
         (reference, displacement): (Option<Values<'a>>, Option<Values<'a>>),
-        outside: &dyn Body,
+        body: &dyn Body,
         back: Option<Back<'_>>,
     ) -> Result<Motion<'a>, Mistake> {
         match (reference, &self.position, &self.place, displacement) {
@@ -177,7 +176,7 @@ impl<'a> Known<'a> {
                 let x = difference(present, &u);
                 Ok(motion(x, Some(u), "X = x - u"))
             }
-            (None, None, Some(place), Some(u)) => self.tried(place.clone(), u, outside),
+            (None, None, Some(place), Some(u)) => self.resolve_with_u(place.clone(), u, body),
             (None, Some(present), _, None) => match back {
                 Some(back) => self.inverse(
                     present,
@@ -189,7 +188,7 @@ impl<'a> Known<'a> {
                 )),
             },
             (None, None, Some(place), None) => match back {
-                Some(back) => self.alone(place, outside, back),
+                Some(back) => self.resolve_without_u(place, body, back),
                 None => Ok(motion(place.clone(), None, "points taken as X")),
             },
             (None, None, None, _) => Err(Mistake::new(
@@ -218,13 +217,13 @@ impl<'a> Known<'a> {
     }
 
     /// Points that may be X or x, without u.
-    fn alone(
+    fn resolve_without_u(
         &self,
         place: &Values<'a>,
-        outside: &dyn Body,
+        body: &dyn Body,
         back: Back<'_>,
     ) -> Result<Motion<'a>, Mistake> {
-        if stray(place, outside).is_some() {
+        if stray(place, body).is_some() {
             let how = "points taken as x, X by the inverse of the exact motion, since some would lie outside the body if they were X";
             return self.inverse(place, back, how);
         }
@@ -270,14 +269,14 @@ impl<'a> Known<'a> {
     }
 
     /// Points that may be X or x, with u.
-    fn tried(
+    fn resolve_with_u(
         &self,
         place: Values<'a>,
         u: Values<'a>,
-        outside: &dyn Body,
+        body: &dyn Body,
     ) -> Result<Motion<'a>, Mistake> {
         let back = difference(&place, &u);
-        match (stray(&place, outside), stray(&back, outside)) {
+        match (stray(&place, body), stray(&back, body)) {
             (None, Some(_)) => Ok(motion(
                 place,
                 Some(u),
@@ -292,7 +291,7 @@ impl<'a> Known<'a> {
                 Ok(motion(place, Some(u), "points taken as X: u is 0"))
             }
             (None, None) => {
-                match ([&place, &back].map(|it| outside.is_filled(&it.numbers)), &self.reading) {
+                match ([&place, &back].map(|it| body.is_filled(&it.numbers)), &self.reading) {
                     ([true, false], _) => {
                         let how =
                             "points taken as X, since they would not fill the body if they were x";
@@ -383,20 +382,20 @@ fn is_moved(place: &Values<'_>, reference: &Values<'_>) -> bool {
 }
 
 /// The first point outside the body by more than its rounding, and its distance.
-fn stray(reference: &Values<'_>, outside: &dyn Body) -> Option<(usize, f64)> {
+fn stray(reference: &Values<'_>, body: &dyn Body) -> Option<(usize, f64)> {
     let points = reference.numbers.chunks(reference.components).enumerate();
     // Each coordinate may be off by its rounding, and so may the bound of the body.
     let most = 4.0 * reference.rounding;
-    points.map(|(at, point)| (at, outside.distance(point))).find(|(_, distance)| *distance > most)
+    points.map(|(at, point)| (at, body.distance(point))).find(|(_, distance)| *distance > most)
 }
 
 fn validate_inside(
     snapshot: &Snapshot,
     motion: &Motion<'_>,
-    outside: &dyn Body,
+    body: &dyn Body,
 ) -> Result<(), Mistake> {
     let reference = &motion.reference;
-    let Some((at, distance)) = stray(reference, outside) else { return Ok(()) };
+    let Some((at, distance)) = stray(reference, body) else { return Ok(()) };
     let point = &reference.numbers[at * reference.components..][..reference.components];
     let what = format!("X = {point:?} lies outside the body by {distance:e} ({})", motion.how);
     Err(here(snapshot, at, what))

@@ -2,7 +2,7 @@
 
 use crate::components::parts;
 use crate::mapping::mapped;
-use crate::meaning::{Column, Part, Place, array};
+use crate::meaning::{ArrayPlace, Column, Part, array};
 use crate::parts::{S, arrays, part_of, split, stem, two_meanings};
 use crate::role::plain;
 use crate::wanted::{Need, Wanted};
@@ -172,7 +172,7 @@ pub fn recognise(
         found.extend(profile.meanings(snapshot, names.axes, &is_left));
     }
     let named: Vec<Role> = found.iter().map(|it: &Meaning| it.role).collect();
-    let taken: Vec<Place> =
+    let taken: Vec<ArrayPlace> =
         found.iter().flat_map(|it| it.columns.iter().map(|(_, column)| column.place)).collect();
     let settled: Vec<String> =
         taken.iter().filter_map(|it| group(names, *it, array(snapshot, *it))).collect();
@@ -205,7 +205,7 @@ pub fn recognise(
 }
 
 /// The common name of the components to which an array belongs, if it is a component.
-fn group(names: &Names, place: Place, array: &Array) -> Option<String> {
+fn group(names: &Names, place: ArrayPlace, array: &Array) -> Option<String> {
     match understand(names, place, array) {
         Some(Understood { part, source, .. }) => part.map(|_| source),
         None => split(&array.name, names.axes)
@@ -215,8 +215,8 @@ fn group(names: &Names, place: Place, array: &Array) -> Option<String> {
 }
 
 /// The name of an array of points or of cells in `--map`.
-fn mapped_name(place: Place, name: &str) -> String {
-    if matches!(place, Place::Cells(_)) { format!("cells:{name}") } else { name.to_owned() }
+fn mapped_name(place: ArrayPlace, name: &str) -> String {
+    if matches!(place, ArrayPlace::Cells(_)) { format!("cells:{name}") } else { name.to_owned() }
 }
 
 /// Adds an array to the meanings found, or to the components of one of them.
@@ -257,7 +257,7 @@ fn add(
 fn validate_clear(
     snapshot: &Snapshot,
     names: &Names,
-    (place, array): (Place, &Array),
+    (place, array): (ArrayPlace, &Array),
     named: &[Role],
     wants: &dyn Fn(Role) -> bool,
 ) -> Result<(), Mistake> {
@@ -297,15 +297,15 @@ fn validate_clear(
 }
 
 /// The quantity of an array, its part, and the name in the file.
-fn understand(names: &Names, place: Place, array: &Array) -> Option<Understood> {
+fn understand(names: &Names, place: ArrayPlace, array: &Array) -> Option<Understood> {
     let name = array.name.as_str();
     match (place, name) {
         // The solver of this project writes x under this name.
-        (Place::Grid, "position") => return Some(Understood::new(Role::Position, None, name)),
-        (Place::Grid, "reference_position") => {
+        (ArrayPlace::Grid, "position") => return Some(Understood::new(Role::Position, None, name)),
+        (ArrayPlace::Grid, "reference_position") => {
             return Some(Understood::new(Role::Reference, None, name));
         }
-        (Place::Grid, _) => return Some(Understood::new(Role::Place, None, "points")),
+        (ArrayPlace::Grid, _) => return Some(Understood::new(Role::Place, None, "points")),
         // Coordinates in separate columns.
         _ if array.components == 1
             && let Some((role, part)) = names.coordinate(name) =>

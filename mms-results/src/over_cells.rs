@@ -18,7 +18,7 @@ use interpolation::Interpolation;
 
 /// A part of the exact solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Asked {
+pub enum SolutionPart {
     /// The values of the quantity, point by point.
     Values,
     /// The derivatives of the quantity by X, row by row: for each component, as many numbers as there are dimensions. On a
@@ -27,7 +27,7 @@ pub enum Asked {
 }
 
 /// Evaluates the exact solution at places X, which are listed point by point.
-pub type Exact<'a> = &'a mut dyn FnMut(Asked, &[f64]) -> Result<Vec<f64>, Mistake>;
+pub type Exact<'a> = &'a mut dyn FnMut(SolutionPart, &[f64]) -> Result<Vec<f64>, Mistake>;
 
 /// The values at the points of a mesh.
 #[derive(Clone, Copy, Debug)]
@@ -88,7 +88,7 @@ struct Point {
 }
 
 /// A kind of cell with its quadrature, and with matrices for interpolation along an axis.
-struct Table {
+struct QuadratureRule {
     shape: &'static Shape,
     points: Vec<Point>,
     fine: Interpolation,
@@ -97,7 +97,7 @@ struct Table {
     steps: usize,
 }
 
-impl Table {
+impl QuadratureRule {
     /// A table with `count` points along an axis.
     fn new(shape: &'static Shape, count: usize) -> Self {
         let (dimension, along) = (shape.dimension, gauss(count));
@@ -123,7 +123,7 @@ impl Table {
             let slopes = [slopes(0), slopes(1), slopes(2)];
             Point { weight, factor, functions: shape.values(at), slopes }
         };
-        Table {
+        QuadratureRule {
             shape,
             points: (0..knots.len().pow(dimension as u32)).map(point).collect(),
             fine: Interpolation::new(&knots, in_parts(&gauss(2))),
@@ -133,10 +133,10 @@ impl Table {
     }
 
     /// The position of a kind of cell in the list of known ones, to which it is added if it is new.
-    fn among(known: &mut Vec<Table>, shape: &'static Shape, count: usize) -> usize {
+    fn among(known: &mut Vec<QuadratureRule>, shape: &'static Shape, count: usize) -> usize {
         let found = known.iter().position(|it| std::ptr::eq(it.shape, shape));
         found.unwrap_or_else(|| {
-            known.push(Table::new(shape, count));
+            known.push(QuadratureRule::new(shape, count));
             known.len() - 1
         })
     }
@@ -164,14 +164,14 @@ struct Peak {
     cell: usize,
     table: usize,
     /// The place in the cube from which the next round searches.
-    at: Local,
+    search_from: Local,
     /// The place in the cube at which `error` was computed.
-    highest: Local,
+    best_place: Local,
 }
 
 /// The sums and the largest errors so far.
 #[derive(Default)]
-struct Found {
+struct Totals {
     volume: f64,
     first: f64,
     second: f64,
@@ -210,7 +210,7 @@ impl Mesh<'_> {
             // Exact for the function of a point times the volume of a cell with straight edges, and for the volume of a cell
             // with curved edges. The radius adds one degree.
             let degree = shape.highest() as usize + usize::from(self.is_meridian);
-            let table = Table::among(&mut tables, shape, (degree + 2).max(2 * degree));
+            let table = QuadratureRule::among(&mut tables, shape, (degree + 2).max(2 * degree));
             batch.clear();
             self.place(&mut batch, cell, &tables[table], points, none)?;
             for (weight, at) in batch.weights.iter().zip(&tables[table].points) {
@@ -231,8 +231,8 @@ impl Mesh<'_> {
     /// # Errors
     /// A cell that is flat, or turned inside out; errors of the exact solution.
     pub fn measure(&self, carried: Carried<'_>, exact: Exact<'_>) -> Result<OverCells, Mistake> {
-        let mut found = Found::default();
-        let mut tables: Vec<Table> = Vec::new();
+        let mut found = Totals::default();
+        let mut tables: Vec<QuadratureRule> = Vec::new();
         let mut batch = Batch::default();
         for (cell, shape, points) in self.full() {
             if !shape.has_functions() {
@@ -240,7 +240,7 @@ impl Mesh<'_> {
                     "cell {cell} is a polygon: what is between its points is not known"
                 )));
             }
-            let table = Table::among(&mut tables, shape, shape.along());
+            let table = QuadratureRule::among(&mut tables, shape, shape.along());
             self.place(&mut batch, cell, &tables[table], points, carried)?;
             batch.cells.push((cell, table));
             if batch.weights.len() >= BATCH {
@@ -263,7 +263,7 @@ impl Mesh<'_> {
         &self,
         batch: &mut Batch,
         cell: usize,
-        table: &Table,
+        table: &QuadratureRule,
         points: &[usize],
         Carried { values, components, has_gradient }: Carried<'_>,
     ) -> Result<(), Mistake> {
@@ -330,9 +330,9 @@ impl Mesh<'_> {
     /// Adds the errors of a batch, and empties it.
     fn add(
         &self,
-        found: &mut Found,
+        found: &mut Totals,
         batch: &mut Batch,
-        tables: &[Table],
+        tables: &[QuadratureRule],
         Carried { components, has_gradient, .. }: Carried<'_>,
         exact: Exact<'_>,
     ) -> Result<(), Mistake> {
@@ -342,9 +342,9 @@ impl Mesh<'_> {
         let less = |numbers: &mut [f64], exact: &[f64]| {
             numbers.iter_mut().zip(exact).for_each(|(to, it)| *to -= it);
         };
-        less(&mut batch.values, &exact(Asked::Values, &batch.places)?);
+        less(&mut batch.values, &exact(SolutionPart::Values, &batch.places)?);
         if has_gradient {
-            less(&mut batch.gradients, &exact(Asked::Gradients, &batch.places)?);
+            less(&mut batch.gradients, &exact(SolutionPart::Gradients, &batch.places)?);
             let squares = batch.gradients.chunks_exact(batch.gradients.len() / batch.weights.len());
             let squares = batch.weights.iter().zip(squares.map(square));
             found.gradient += squares.map(|(weight, it)| weight * it).sum::<f64>();
@@ -355,7 +355,7 @@ impl Mesh<'_> {
             first = own.end;
             let errors = &batch.values[own.start * components..own.end * components];
             let of_points = [&batch.weights[own.clone()], &batch.densities[own]];
-            found.see((cell, table), &tables[table], errors, of_points);
+            found.add_cell((cell, table), &tables[table], errors, of_points);
         }
         batch.clear();
         Ok(())
@@ -365,8 +365,8 @@ impl Mesh<'_> {
     /// Returns the place X of the largest error; the middle of its cell, if it is at a point of quadrature.
     fn climb(
         &self,
-        found: &mut Found,
-        tables: &[Table],
+        found: &mut Totals,
+        tables: &[QuadratureRule],
         carried: Carried<'_>,
         exact: Exact<'_>,
     ) -> Result<Vec<f64>, Mistake> {
@@ -377,7 +377,7 @@ impl Mesh<'_> {
         for _ in 0..ROUNDS {
             let step_of = |peak: &Peak| part / tables[peak.table].steps as f64;
             let beside = |peak: &Peak| {
-                let (at, step) = (peak.at, step_of(peak));
+                let (at, step) = (peak.search_from, step_of(peak));
                 let moved = (0..2 * dimension).map(move |which| {
                     let (axis, by) = (which / 2, if which % 2 == 0 { -step } else { step });
                     let mut at = at;
@@ -389,7 +389,7 @@ impl Mesh<'_> {
             let tried: Vec<Peak> = found
                 .peaks
                 .iter()
-                .flat_map(|peak| beside(peak).map(|at| Peak { at, ..*peak }))
+                .flat_map(|peak| beside(peak).map(|at| Peak { search_from: at, ..*peak }))
                 .collect();
             let errors = self.errors_at(&tried, tables, carried, exact)?;
             let count = 2 * dimension + 1;
@@ -397,7 +397,7 @@ impl Mesh<'_> {
             for (peak, (errors, tried)) in each {
                 for (error, tried) in errors.iter().zip(tried).filter(|it| !it.0.is_nan()) {
                     if *error > peak.error {
-                        (peak.error, peak.highest) = (*error, tried.at);
+                        (peak.error, peak.best_place) = (*error, tried.search_from);
                     }
                 }
                 for (axis, beside) in errors[1..].chunks(2).enumerate() {
@@ -408,21 +408,22 @@ impl Mesh<'_> {
                     } else {
                         rise.signum()
                     };
-                    peak.at[axis] = (peak.at[axis] + far * step_of(peak)).clamp(0.0, 1.0);
+                    peak.search_from[axis] =
+                        (peak.search_from[axis] + far * step_of(peak)).clamp(0.0, 1.0);
                 }
             }
             part *= SHRINKS;
         }
-        let mut highest = [0.5; 3];
+        let mut best_place = [0.5; 3];
         for peak in &found.peaks {
             if peak.error > found.largest.0 {
-                (found.largest, highest) = ((peak.error, peak.cell), peak.highest);
+                (found.largest, best_place) = ((peak.error, peak.cell), peak.best_place);
             }
         }
         let cell = found.largest.1;
         let points = self.full().find(|it| it.0 == cell);
         Ok(points.map_or_else(Vec::new, |(_, shape, points)| {
-            let functions = shape.values(shape.of_cube(highest).0);
+            let functions = shape.values(shape.of_cube(best_place).0);
             let sum = |axis: usize| {
                 points.iter().zip(&functions).map(|(&at, n)| n * self.point(at)[axis]).sum()
             };
@@ -434,7 +435,7 @@ impl Mesh<'_> {
     fn errors_at(
         &self,
         all: &[Peak],
-        tables: &[Table],
+        tables: &[QuadratureRule],
         Carried { values, components, .. }: Carried<'_>,
         exact: Exact<'_>,
     ) -> Result<Vec<f64>, Mistake> {
@@ -443,7 +444,7 @@ impl Mesh<'_> {
             let start = peak.cell.checked_sub(1).map_or(0, |before| self.cells.ends[before]);
             let points = &self.cells.points[start..self.cells.ends[peak.cell]];
             let shape = tables[peak.table].shape;
-            let functions = shape.values(shape.of_cube(peak.at).0);
+            let functions = shape.values(shape.of_cube(peak.search_from).0);
             let sum = |of: &[f64], size: usize, to: &mut Vec<f64>| {
                 let each = |k: usize| {
                     let parts = points.iter().zip(&functions);
@@ -454,17 +455,17 @@ impl Mesh<'_> {
             sum(self.points, self.dimension, &mut places);
             sum(values, components, &mut computed);
         }
-        let exact = exact(Asked::Values, &places)?;
+        let exact = exact(SolutionPart::Values, &places)?;
         Ok(lengths(&computed, &exact, components).collect())
     }
 }
 
-impl Found {
+impl Totals {
     /// Adds the errors of a cell at its quadrature points, with the weights and densities there.
-    fn see(
+    fn add_cell(
         &mut self,
         (cell, table): (usize, usize),
-        of: &Table,
+        of: &QuadratureRule,
         errors: &[f64],
         [weights, densities]: [&[f64]; 2],
     ) {
@@ -494,7 +495,7 @@ impl Found {
     }
 
     /// The integral of the length of a polynomial.
-    fn integral(&mut self, of: &Table, errors: &[f64], densities: &[f64]) -> f64 {
+    fn integral(&mut self, of: &QuadratureRule, errors: &[f64], densities: &[f64]) -> f64 {
         let dimension = of.shape.dimension;
         let components = errors.len() / densities.len();
         let size = components + 1;
@@ -512,7 +513,7 @@ impl Found {
     fn search(
         &mut self,
         (cell, table): (usize, usize),
-        of: &Table,
+        of: &QuadratureRule,
         errors: &[f64],
         components: usize,
     ) {
@@ -543,7 +544,7 @@ impl Found {
             let error = most.sqrt();
             self.best = self.best.max(error);
             if error > NEAR * self.best {
-                self.peaks.push(Peak { error, cell, table, at: place, highest: place });
+                self.peaks.push(Peak { error, cell, table, search_from: place, best_place: place });
             }
         }
         if self.peaks.len() > 4 * COMPARED {

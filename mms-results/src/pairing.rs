@@ -29,7 +29,7 @@ impl Pairs {
 
 /// The way in which points were paired.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum By {
+pub enum PairedBy {
     /// By the numbers in an array of this name.
     Number(String),
     /// By X.
@@ -62,11 +62,15 @@ type Alone = (usize, usize);
 ///
 /// # Errors
 /// A point that the other result does not have; different numbers of points where only the order could pair them.
-pub fn points(one: &Snapshot, other: &Snapshot, names: &Names) -> Result<(Pairs, By), Mistake> {
+pub fn points(
+    one: &Snapshot,
+    other: &Snapshot,
+    names: &Names,
+) -> Result<(Pairs, PairedBy), Mistake> {
     if let Some((name, [a, b])) = numbered(one, other) {
         let pairs = by_place(&a.values, &b.values, 1, 0.25);
         return pairs
-            .map(|it| (it, By::Number(name)))
+            .map(|it| (it, PairedBy::Number(name)))
             .map_err(|it| alone([one, other], it, "number"));
     }
     let places = [places(one, names)?, places(other, names)?];
@@ -78,7 +82,7 @@ pub fn points(one: &Snapshot, other: &Snapshot, names: &Names) -> Result<(Pairs,
             let within = (4.0 * (a.rounding + b.rounding)).min(spacing(a) / 4.0)
                 + 8.0 * f64::EPSILON * largest(a).max(largest(b));
             match by_place(&a.numbers, &b.numbers, a.components, within) {
-                Ok(pairs) => return Ok((pairs, By::Place)),
+                Ok(pairs) => return Ok((pairs, PairedBy::Place)),
                 Err(row) => refused = refused.or(Some(row)),
             }
         }
@@ -96,7 +100,7 @@ pub fn points(one: &Snapshot, other: &Snapshot, names: &Names) -> Result<(Pairs,
             }
         });
     }
-    Ok((Pairs::InOrder(counts[0]), By::Order))
+    Ok((Pairs::InOrder(counts[0]), PairedBy::Order))
 }
 
 /// Pairs cells by their points.
@@ -108,7 +112,7 @@ pub fn cells(one: &Snapshot, other: &Snapshot, points: &Pairs) -> Result<Pairs, 
         return Ok(Pairs::InOrder(one.cells.len()));
     }
     for snapshot in [one, other] {
-        snapshot.cells.hold(snapshot.rows()).map_err(|mistake| mistake.of(&snapshot.path))?;
+        snapshot.cells.validate(snapshot.rows()).map_err(|mistake| mistake.of(&snapshot.path))?;
     }
     // Paired points are named by the first of them in one result.
     let mut names = [vec![0; one.rows()], vec![usize::MAX; other.rows()]];

@@ -1,7 +1,7 @@
 //! The arrays of a snapshot, and the parts of their names: the name of a quantity, and a component.
 
 use crate::axes::Axes;
-use crate::meaning::{Part, Place};
+use crate::meaning::{ArrayPlace, Part};
 use crate::role::{Form, Role, plain};
 use crate::{Array, Snapshot};
 
@@ -25,11 +25,12 @@ pub(crate) fn two_meanings(name: &str, axes: Axes) -> Option<[Role; 2]> {
 }
 
 /// All arrays; the places of points come first.
-pub(crate) fn arrays(snapshot: &Snapshot) -> impl Iterator<Item = (Place, &Array)> + Clone {
-    let grid = snapshot.points.iter().map(|array| (Place::Grid, array));
+pub(crate) fn arrays(snapshot: &Snapshot) -> impl Iterator<Item = (ArrayPlace, &Array)> + Clone {
+    let grid = snapshot.points.iter().map(|array| (ArrayPlace::Grid, array));
     let points =
-        snapshot.of_points.iter().enumerate().map(|(at, array)| (Place::Points(at), array));
-    let cells = snapshot.of_cells.iter().enumerate().map(|(at, array)| (Place::Cells(at), array));
+        snapshot.of_points.iter().enumerate().map(|(at, array)| (ArrayPlace::Points(at), array));
+    let cells =
+        snapshot.of_cells.iter().enumerate().map(|(at, array)| (ArrayPlace::Cells(at), array));
     grid.chain(points).chain(cells)
 }
 

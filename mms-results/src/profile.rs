@@ -11,7 +11,7 @@ use crate::role::{Form, Role};
 use crate::{Array, Snapshot};
 
 /// The rows and columns of a symmetric tensor's entries, counted from 0, in the order of an array's components.
-pub type Order = Vec<(usize, usize)>;
+pub type ComponentOrder = Vec<(usize, usize)>;
 
 /// The names and orders that a code is known to write.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,7 +23,7 @@ pub struct Profile {
     /// The names of arrays, the usual one first.
     pub quantities: Vec<(Role, Vec<String>)>,
     /// The orders of symmetric tensors without component names, each for arrays with as many components.
-    pub orders: Vec<Order>,
+    pub orders: Vec<ComponentOrder>,
 }
 
 impl Profile {

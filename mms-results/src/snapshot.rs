@@ -189,7 +189,7 @@ impl Cells {
     }
 
     /// Refuses cells whose ends do not follow each other, or that have points beyond the last.
-    pub(crate) fn hold(&self, points: usize) -> Result<(), Mistake> {
+    pub(crate) fn validate(&self, points: usize) -> Result<(), Mistake> {
         let (types, ends) = (self.types.len(), self.ends.len());
         if types != ends {
             return Err(Mistake::new(format!("{types} types of cells for {ends} cells")));

@@ -1,7 +1,7 @@
 //! Suggestions: the columns of a file that may contain a quantity whose name is unknown.
 
 use crate::axes::Axes;
-use crate::meaning::{Meaning, Place};
+use crate::meaning::{ArrayPlace, Meaning};
 use crate::parts::{arrays, split};
 use crate::role::{Form, Role};
 use crate::{Array, Snapshot};
@@ -56,7 +56,7 @@ fn column<'a>(array: &&'a Array) -> (String, &'a Array, usize) {
 /// Possible vectors of a dimension in arrays of points: an array with as many components, or with others that are 0; columns
 /// whose names differ in a component; and adjacent columns.
 fn vectors(snapshot: &Snapshot, dimension: usize) -> Vec<Candidate> {
-    let of_points = || arrays(snapshot).filter(|(place, _)| !matches!(place, Place::Cells(_)));
+    let of_points = || arrays(snapshot).filter(|(place, _)| !matches!(place, ArrayPlace::Cells(_)));
     let mut found = Vec::new();
     let is_flat = |array: &Array| {
         let mut rows = array.values.chunks_exact(array.components);
@@ -65,7 +65,7 @@ fn vectors(snapshot: &Snapshot, dimension: usize) -> Vec<Candidate> {
     let fits =
         |array: &Array| array.components >= dimension && array.components <= 3 && is_flat(array);
     for (place, array) in of_points().filter(|(_, it)| fits(it)) {
-        let name = if place == Place::Grid { "points" } else { &array.name };
+        let name = if place == ArrayPlace::Grid { "points" } else { &array.name };
         let columns: Vec<_> = (0..dimension).map(|at| (name.to_owned(), array, at)).collect();
         let whole = Candidate::of(&columns);
         found.extend(whole.map(|it| Candidate { names: vec![name.to_owned()], ..it }));

@@ -70,16 +70,16 @@ impl<'a> Wanted<'a> {
     ///
     /// # Errors
     /// Too little memory.
-    pub(crate) fn take(&self, what: &str, numbers: usize) -> Result<(), Mistake> {
+    pub(crate) fn reserve(&self, what: &str, numbers: usize) -> Result<(), Mistake> {
         let bytes = (numbers as u64).saturating_mul(8);
         let needed = bytes.saturating_mul(2);
-        self.hold(what, needed)?;
+        self.validate_room(what, needed)?;
         self.room.set(self.room.get() - bytes);
         Ok(())
     }
 
     /// Refuses to use more bytes than remain.
-    fn hold(&self, what: &str, needed: u64) -> Result<(), Mistake> {
+    fn validate_room(&self, what: &str, needed: u64) -> Result<(), Mistake> {
         let room = self.room.get();
         if needed <= room {
             return Ok(());
@@ -92,13 +92,13 @@ impl<'a> Wanted<'a> {
     }
 
     /// Calls a function while bytes of a file are in memory.
-    pub(crate) fn beside<T>(
+    pub(crate) fn with_reserved<T>(
         &self,
         bytes: usize,
         make: impl FnOnce() -> Result<T, Mistake>,
     ) -> Result<T, Mistake> {
         let bytes = bytes as u64;
-        self.hold("the file", bytes)?;
+        self.validate_room("the file", bytes)?;
         self.room.set(self.room.get() - bytes);
         let made = make();
         self.room.set(self.room.get() + bytes);

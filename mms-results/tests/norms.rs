@@ -5,7 +5,7 @@ use mms_results::cell::{Local, Shape};
 use mms_results::comparison::Comparison;
 use mms_results::mesh::Mesh;
 use mms_results::norm::{largest, lengths, of_differences, over_points};
-use mms_results::over_cells::{Asked, Carried, Exact};
+use mms_results::over_cells::{Carried, Exact, SolutionPart};
 
 use crate::sampled::sampled;
 
@@ -146,11 +146,11 @@ fn gradient(of: impl Fn(&[f64]) -> [f64; 2], x: &[f64]) -> Vec<f64> {
     [0, 1].into_iter().flat_map(|row| columns.iter().map(move |column| column[row])).collect()
 }
 
-fn exact(asked: Asked, places: &[f64], dimension: usize) -> Vec<f64> {
+fn exact(asked: SolutionPart, places: &[f64], dimension: usize) -> Vec<f64> {
     let points = places.chunks(dimension);
     match asked {
-        Asked::Values => points.flat_map(smooth).collect(),
-        Asked::Gradients => points.flat_map(|x| gradient(smooth, x)).collect(),
+        SolutionPart::Values => points.flat_map(smooth).collect(),
+        SolutionPart::Gradients => points.flat_map(|x| gradient(smooth, x)).collect(),
     }
 }
 
@@ -204,7 +204,7 @@ fn norms_over_a_cell_are_those_of_a_sum_over_many_points() {
     for shape in sampled(Shape::all().chain(lagrange), SHARE) {
         let (one, dimension) = (One::new(shape), shape.dimension);
         let values: Vec<f64> = one.points.chunks(dimension).flat_map(smooth).collect();
-        let mut asked = |what: Asked, places: &[f64]| Ok(exact(what, places, dimension));
+        let mut asked = |what: SolutionPart, places: &[f64]| Ok(exact(what, places, dimension));
         let found = one.mesh().measure(carried(&values, 2), &mut asked).unwrap();
         let computed = |x: &[f64]| {
             let functions = shape.values(known(shape, local(x)));
@@ -243,11 +243,11 @@ fn what_is_linear_has_no_error_on_any_cell() {
         let linear =
             |x: &[f64]| 0.5 + x.iter().zip([1.0, -2.0, 3.0]).map(|(x, k)| k * x).sum::<f64>();
         let values: Vec<f64> = one.points.chunks(shape.dimension).map(linear).collect();
-        let mut asked = |what: Asked, places: &[f64]| {
+        let mut asked = |what: SolutionPart, places: &[f64]| {
             let points = places.chunks(shape.dimension);
             Ok(match what {
-                Asked::Values => points.map(linear).collect(),
-                Asked::Gradients => {
+                SolutionPart::Values => points.map(linear).collect(),
+                SolutionPart::Gradients => {
                     points.flat_map(|x| [1.0, -2.0, 3.0][..x.len()].to_vec()).collect()
                 }
             })
@@ -297,7 +297,7 @@ fn interpolants_have_their_orders() {
             let edge = if kind == 5 || kind == 22 { 2f64.sqrt() } else { 1.0 } / cells as f64;
             assert!(sizes.iter().all(|size| (size - edge).abs() < 1e-12));
             let values: Vec<f64> = points.chunks(2).flat_map(smooth).collect();
-            let mut asked = |what: Asked, places: &[f64]| Ok(exact(what, places, 2));
+            let mut asked = |what: SolutionPart, places: &[f64]| Ok(exact(what, places, 2));
             mesh.measure(carried(&values, 2), &mut asked).unwrap()
         });
         let order = |norm: &dyn Fn(usize) -> f64| (norm(0) / norm(1)).log2();
@@ -310,7 +310,7 @@ fn interpolants_have_their_orders() {
 #[test]
 fn flat_and_folded_cells_are_named() {
     let quad = Cells { types: vec![9], points: vec![0, 1, 2, 3], ends: vec![4] };
-    let mut none = |what: Asked, places: &[f64]| Ok(exact(what, places, 2));
+    let mut none = |what: SolutionPart, places: &[f64]| Ok(exact(what, places, 2));
     let said = |points: &[f64], exact: Exact<'_>| {
         let mesh = Mesh { cells: &quad, points, dimension: 2, is_meridian: false };
         mesh.measure(carried(&[0.0; 8], 2), exact).unwrap_err().what
@@ -360,8 +360,8 @@ fn monomials_over_wedges_and_pyramids_have_their_integrals() {
             }
             let monomial =
                 |x: &[f64]| x.iter().zip(exponents).map(|(x, n)| x.powi(n)).product::<f64>();
-            let mut asked = |what: Asked, places: &[f64]| {
-                let is_value = what == Asked::Values;
+            let mut asked = |what: SolutionPart, places: &[f64]| {
+                let is_value = what == SolutionPart::Values;
                 let size = if is_value { 1 } else { 3 };
                 let value = |x: &[f64]| if is_value { monomial(x) } else { 0.0 };
                 Ok(places.chunks(3).flat_map(|x| vec![value(x); size]).collect())

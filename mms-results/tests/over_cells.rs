@@ -2,7 +2,7 @@
 
 use mms_results::Cells;
 use mms_results::mesh::Mesh;
-use mms_results::over_cells::{Asked, Carried};
+use mms_results::over_cells::{Carried, SolutionPart};
 
 use crate::sampled::sampled;
 
@@ -164,12 +164,12 @@ fn by(rule: &Rule, case: &Case) -> [f64; 4] {
 fn measured(case: &Case) -> [f64; 4] {
     let Case { cells, points, values, dimension, components } = case;
     let (dimension, components) = (*dimension, *components);
-    let mut asked = |what: Asked, places: &[f64]| {
+    let mut asked = |what: SolutionPart, places: &[f64]| {
         let all = places.chunks(dimension);
         let each = |x: &[f64]| -> Vec<f64> {
             let of = |component: usize| match (what, exact(x, component)) {
-                (Asked::Values, [value, _]) => vec![value],
-                (Asked::Gradients, [_, slope]) => {
+                (SolutionPart::Values, [value, _]) => vec![value],
+                (SolutionPart::Gradients, [_, slope]) => {
                     K[..dimension].iter().map(|k| k * slope).collect()
                 }
             };

@@ -3,7 +3,7 @@
 use mms_results::motion::validate_distinct;
 use mms_results::names::KNOWN;
 use mms_results::names::Values;
-use mms_results::pairing::{By, Pairs, cells, points};
+use mms_results::pairing::{PairedBy, Pairs, cells, points};
 use mms_results::{Array, Cells, Snapshot, Stored};
 use proptest::prelude::*;
 
@@ -42,7 +42,7 @@ fn points_are_paired_by_their_numbers_before_anything_else() {
     let (pairs, by) = points(&a, &b, &KNOWN).unwrap();
     assert_eq!(
         (listed(&pairs), by),
-        (vec![[0, 1], [1, 2], [2, 0]], By::Number("GlobalNodeIds".into()))
+        (vec![[0, 1], [1, 2], [2, 0]], PairedBy::Number("GlobalNodeIds".into()))
     );
     let other = snapshot("c", vec![array("GlobalNodeIds", 1, &[9.0, 7.0, 6.0])]);
     assert!(
@@ -53,7 +53,7 @@ fn points_are_paired_by_their_numbers_before_anything_else() {
         "d",
         vec![array("GlobalNodeIds", 1, &[0.0, 1.0, 0.0]), array("X", 1, &[1.0, 0.5, 0.0])],
     );
-    assert_eq!(points(&ranks, &a, &KNOWN).unwrap().1, By::Place);
+    assert_eq!(points(&ranks, &a, &KNOWN).unwrap().1, PairedBy::Place);
 }
 
 #[test]
@@ -62,7 +62,7 @@ fn points_between_ranks_are_one() {
     let whole = snapshot("whole", vec![array("X", 1, &[0.0, 0.5, 1.0])]);
     let halves = snapshot("halves", vec![array("X", 1, &[0.5, 1.0, 0.0, 0.5])]);
     let (pairs, by) = points(&whole, &halves, &KNOWN).unwrap();
-    assert_eq!((listed(&pairs), by), (vec![[0, 2], [1, 0], [1, 3], [2, 1]], By::Place));
+    assert_eq!((listed(&pairs), by), (vec![[0, 2], [1, 0], [1, 3], [2, 1]], PairedBy::Place));
     let (pairs, _) = points(&halves, &whole, &KNOWN).unwrap();
     assert_eq!(listed(&pairs), [[0, 1], [1, 2], [2, 0], [3, 1]]);
     let less = snapshot("less", vec![array("X", 1, &[0.0, 1.0])]);
@@ -84,12 +84,12 @@ fn points_without_a_name_are_tried_as_reference_and_as_present_positions() {
     let a = place("a", [0.1, 1.3], [0.1, 0.3]);
     let b = place("b", [1.25, 0.125], [0.25, 0.125]);
     let (pairs, by) = points(&a, &b, &KNOWN).unwrap();
-    assert_eq!((listed(&pairs), by), (vec![[0, 1], [1, 0]], By::Place));
+    assert_eq!((listed(&pairs), by), (vec![[0, 1], [1, 0]], PairedBy::Place));
     // Without u nothing pairs the points, but equally many are compared in their order.
     let only = |x: [f64; 2]| snapshot("x", vec![array("x", 1, &x)]);
     assert_eq!(
         points(&only([0.0, 1.0]), &only([1.5, 0.1]), &KNOWN).unwrap(),
-        (Pairs::InOrder(2), By::Order)
+        (Pairs::InOrder(2), PairedBy::Order)
     );
 }
 

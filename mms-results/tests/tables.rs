@@ -337,7 +337,7 @@ fn one_number_called_e_is_no_strain_of_a_plane() {
         let snapshot = read(text, &everything(&KNOWN)).unwrap();
         let meanings = recognise(&snapshot, &maps(map), &|_| true).unwrap();
         let found = meanings.iter().find(|it| it.role == Role::GreenLagrange).unwrap();
-        found.unlike(&snapshot, dimension, None).is_some()
+        found.mismatch(&snapshot, dimension, None).is_some()
     };
     assert!(other("X,Y,E\n0,0,1\n", &[], 2));
     assert!(!other("X,Y,E\n0,0,1\n", &["E=E"], 2));

@@ -1,7 +1,7 @@
 //! Observed orders on the 1D bar, with the theory that expects them.
 
 use crate::common::{Bar, levels, method};
-use mms_runtime::convergence::{Expected, TOLERANCE, Verdict};
+use mms_runtime::convergence::{ExpectedOrder, TOLERANCE, Verdict};
 use mms_runtime::study::{Level, judge, orders};
 use mms_runtime::{Errors, FormulationName, IntegratorName, Method, ShapeName};
 
@@ -24,7 +24,7 @@ fn finest_orders(levels: &[Level]) -> [f64; 2] {
 }
 
 fn verdict(levels: &[Level]) -> Verdict {
-    let judgement = judge(levels, Expected::new(2.0, TOLERANCE));
+    let judgement = judge(levels, ExpectedOrder::new(2.0, TOLERANCE));
     println!("{}", judgement.sentences("h", &|h| format!("h {h}")).join("\n"));
     judgement.verdict()
 }

@@ -2,7 +2,7 @@
 //! time step that is refused.
 
 use crate::common::{AxisAligned, Bar, method};
-use mms_runtime::convergence::Expected;
+use mms_runtime::convergence::ExpectedOrder;
 use mms_runtime::study::{Balance, Refinement, Run, Series, Snapshots, Solve, Watch, differences};
 use mms_runtime::{
     Cause, Division, FormulationName, IntegratorName, ManufacturedField, Method, Setup, ShapeName,
@@ -19,7 +19,7 @@ fn run<T: Solve<D>, const D: usize>(
     T::run(field, method, &Division::Uniform(cells), Watch::Parts(PARTS), &mut ()).unwrap()
 }
 
-const SECOND: Expected = Expected::new(2.0, 0.15);
+const SECOND: ExpectedOrder = ExpectedOrder::new(2.0, 0.15);
 
 fn total(shape: ShapeName, integrator: IntegratorName) -> Method {
     Method { formulation: FormulationName::Total, ..method(shape, integrator) }

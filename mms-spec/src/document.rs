@@ -50,7 +50,7 @@ impl<'a> Document<'a> {
             .collect();
         slips.sort_by_key(|slip| slip.span.start);
         let incomplete =
-            errors.len() > MAX_ERRORS || slips.iter().any(|slip| slip.kind == Kind::Lossy);
+            errors.len() > MAX_ERRORS || slips.iter().any(|slip| slip.kind == Damage::Lossy);
         let is_open = |error: &Error| {
             ["unclosed array,", "unclosed inline table,"]
                 .iter()
@@ -67,7 +67,7 @@ impl<'a> Document<'a> {
 
 /// The extent of the damage of a syntax error.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+enum Damage {
     /// A table that exists already; its keys are kept.
     SecondTable,
     /// A key that exists already; the first one is kept.
@@ -81,7 +81,7 @@ enum Kind {
 /// A syntax error.
 struct Slip {
     span: Span,
-    kind: Kind,
+    kind: Damage,
     message: String,
 }
 
@@ -92,18 +92,18 @@ impl Slip {
         let message = error.message().to_string();
         let kind = if message == "duplicate key" {
             let header = line_before(sources, span).trim_start().starts_with('[');
-            if header { Kind::SecondTable } else { Kind::SecondKey }
+            if header { Damage::SecondTable } else { Damage::SecondKey }
         } else if is_in_value(root, &place) && !message.starts_with("invalid multi-line") {
-            Kind::Value
+            Damage::Value
         } else {
             // A long string without an end includes the rest of the file.
-            Kind::Lossy
+            Damage::Lossy
         };
         Slip { span, kind, message }
     }
 
     fn is_duplicate(&self) -> bool {
-        matches!(self.kind, Kind::SecondTable | Kind::SecondKey)
+        matches!(self.kind, Damage::SecondTable | Damage::SecondKey)
     }
 
     fn place(&self) -> Range<usize> {
@@ -163,10 +163,10 @@ fn follows(text: &str, last: &Slip, slip: &Slip) -> bool {
     let between = &text[last.span.start..slip.span.start];
     match slip.kind {
         _ if slip.span == last.span => true,
-        Kind::Lossy => !between.contains('\n'),
+        Damage::Lossy => !between.contains('\n'),
         // The keys of a table that exists already often exist as well.
-        Kind::SecondKey => last.kind == Kind::SecondTable && !between.contains("\n["),
-        Kind::SecondTable | Kind::Value => false,
+        Damage::SecondKey => last.kind == Damage::SecondTable && !between.contains("\n["),
+        Damage::SecondTable | Damage::Value => false,
     }
 }
 
@@ -175,10 +175,10 @@ fn diagnostic(sources: &Sources, slip: &Slip) -> Diagnostic {
     let before = line_before(sources, slip.span).trim_end();
     let error = |message: String| Diagnostic::error(slip.span, message);
     match slip.kind {
-        Kind::SecondTable => error(format!("the table {} is defined twice", quoted(found)))
+        Damage::SecondTable => error(format!("the table {} is defined twice", quoted(found)))
             .label("defined again here")
             .help("put all its keys under one header"),
-        Kind::SecondKey => error(format!("{} is defined twice in the same table", quoted(found)))
+        Damage::SecondKey => error(format!("{} is defined twice in the same table", quoted(found)))
             .label("defined again here")
             .help("keep one of the two, or give them different names"),
         _ if found.is_empty() && before.ends_with('=') => {
@@ -199,7 +199,7 @@ fn diagnostic(sources: &Sources, slip: &Slip) -> Diagnostic {
             let is_number = ["invalid float", "invalid integer"]
                 .iter()
                 .any(|invalid| slip.message.starts_with(invalid));
-            if kind == Kind::Value && is_number {
+            if kind == Damage::Value && is_number {
                 return diagnostic.help("an expression is a string: write it in quotes");
             }
             diagnostic

@@ -12,7 +12,7 @@ use crate::format::{BALANCE, CHECK, DISPLACEMENT, EXTREME, FIELD, FIELD_FILE, Ke
 use crate::formula::Formula;
 use crate::given::{GivenSpec, givens};
 use crate::material::{MaterialUse, material_use};
-use crate::names::{Keeper, Names};
+use crate::names::{Names, ReservingFile};
 use crate::rigid::{RigidSpec, rigid};
 use crate::source::{SourceId, Sources, Span, Spanned};
 use crate::space::Space;
@@ -124,7 +124,7 @@ pub fn read_field(
     let header = header(&root, &mut reader);
     let chosen = displacement_table(&root, &mut reader);
     let space = header.space(chosen.as_ref(), &mut reader);
-    let mut names = Names::new(space.map_or(Keeper::Field, Keeper::of));
+    let mut names = Names::new(space.map_or(ReservingFile::Field, ReservingFile::of));
     let parameters = reader
         .names(&root, "parameters")
         .map(|table| parameters(&table, &mut names, &mut reader))

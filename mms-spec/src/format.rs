@@ -7,7 +7,7 @@
 
 use crate::boundary::{Claim, Face};
 use crate::domain::Shape;
-use crate::names::Keeper;
+use crate::names::ReservingFile;
 use crate::quantity::Quantity;
 use crate::space::Space;
 use crate::study::{FILLS, FORMS, FORMULATIONS, INTEGRATORS, PRECISIONS, SHAPES, TRANSFERS};
@@ -20,14 +20,14 @@ pub struct Key {
     /// Whether every such table must have the key.
     pub required: bool,
     /// The type of its value.
-    pub holds: Holds,
+    pub value_type: ValueType,
     /// The description, in a sentence or two.
     pub doc: &'static str,
 }
 
 /// The type of the value of a key.
 #[derive(Debug)]
-pub enum Holds {
+pub enum ValueType {
     /// A string for people.
     Text,
     /// True or false.
@@ -61,7 +61,7 @@ pub enum Holds {
     /// An array of tables with these keys.
     Tables(&'static [Key]),
     /// A table whose keys are names of the file's own.
-    Names(Keeper, &'static Holds),
+    Names(ReservingFile, &'static ValueType),
     /// A table with these keys, and a formula for each parameter of the material.
     Material(&'static [Key]),
     /// A claim for each face of the body.
@@ -81,12 +81,12 @@ pub enum Length {
     Exactly(usize),
 }
 
-const fn required(name: &'static str, holds: Holds, doc: &'static str) -> Key {
-    Key { name, required: true, holds, doc }
+const fn required(name: &'static str, holds: ValueType, doc: &'static str) -> Key {
+    Key { name, required: true, value_type: holds, doc }
 }
 
-const fn optional(name: &'static str, holds: Holds, doc: &'static str) -> Key {
-    Key { name, required: false, holds, doc }
+const fn optional(name: &'static str, holds: ValueType, doc: &'static str) -> Key {
+    Key { name, required: false, value_type: holds, doc }
 }
 
 /// The names of keys, in their order.
@@ -115,115 +115,127 @@ pub fn claims(face: Face) -> Vec<&'static str> {
 
 /// A field file.
 pub const FIELD_FILE: &[Key] = &[
-    required("field", Holds::Table(FIELD), "The field: its title, dimension and coordinates."),
+    required("field", ValueType::Table(FIELD), "The field: its title, dimension and coordinates."),
     optional(
         "parameters",
-        Holds::Names(Keeper::Field, &Holds::Table(PARAMETER)),
+        ValueType::Names(ReservingFile::Field, &ValueType::Table(PARAMETER)),
         "Numbers that users of the field may change.",
     ),
     optional(
         "let",
-        Holds::Names(Keeper::Field, &Holds::Formula),
+        ValueType::Names(ReservingFile::Field, &ValueType::Formula),
         "Names for formulas, in order: each may use those above it.",
     ),
     optional(
         "given",
-        Holds::Names(Keeper::Field, &Holds::Table(GIVEN)),
+        ValueType::Names(ReservingFile::Field, &ValueType::Table(GIVEN)),
         "Given fields of the file's own, such as a temperature: functions of X and t.",
     ),
     required(
         "displacement",
-        Holds::Table(DISPLACEMENT),
+        ValueType::Table(DISPLACEMENT),
         "The displacement; every other quantity follows from it.",
     ),
     required(
         "material",
-        Holds::Material(MATERIAL),
+        ValueType::Material(MATERIAL),
         "The strain-energy density: a model, a formula for each of its parameters, the density.",
     ),
     required(
         "domain",
-        Holds::Table(DOMAIN),
+        ValueType::Table(DOMAIN),
         "The reference body, and the time window that all claims are about.",
     ),
     optional(
         "boundary",
-        Holds::Faces,
+        ValueType::Faces,
         "The claim about each face. An omitted face claims nothing.",
     ),
     optional(
         "balance",
-        Holds::Tables(BALANCE),
+        ValueType::Tables(BALANCE),
         "Further balances of a coupled code, such as the heat balance; their sources are derived.",
     ),
-    optional("check", Holds::Tables(CHECK), "Closed forms that were derived on paper."),
-    optional("study", Holds::Tables(STUDY), "The orders that the solver must show on the field."),
-    optional("extreme", Holds::Tables(EXTREME), "Parameters at their limits."),
+    optional("check", ValueType::Tables(CHECK), "Closed forms that were derived on paper."),
+    optional(
+        "study",
+        ValueType::Tables(STUDY),
+        "The orders that the solver must show on the field.",
+    ),
+    optional("extreme", ValueType::Tables(EXTREME), "Parameters at their limits."),
     optional(
         "rigid",
-        Holds::Table(RIGID),
+        ValueType::Table(RIGID),
         "A rigid motion of the whole on top of the displacement: the rigid twin of the field.",
     ),
 ];
 
 /// `[field]`.
 pub const FIELD: &[Key] = &[
-    required("title", Holds::Text, "A title for the field, in a few words."),
-    required("dimension", Holds::Dimension, "The number of reference coordinates: 1, 2 or 3."),
+    required("title", ValueType::Text, "A title for the field, in a few words."),
+    required("dimension", ValueType::Dimension, "The number of reference coordinates: 1, 2 or 3."),
     optional(
         "coordinates",
-        Holds::Word(|| Space::WORDS.to_vec()),
+        ValueType::Word(|| Space::WORDS.to_vec()),
         "The coordinates: cartesian by default; axisymmetric, which are R and Z, with dimension = 2.",
     ),
-    optional("reference", Holds::Text, "The authors and the publication."),
+    optional("reference", ValueType::Text, "The authors and the publication."),
 ];
 
 /// One of `[parameters]`.
 pub const PARAMETER: &[Key] = &[
     required(
         "value",
-        Holds::Formula,
+        ValueType::Formula,
         "The value by default: a formula of numbers, pi and the parameters above.",
     ),
-    optional("unit", Holds::Text, "The unit, such as kg/m^3."),
-    optional("symbol", Holds::Text, "The symbol in LaTeX, such as E or \\lambda."),
-    optional("doc", Holds::Text, "A description, in a few words."),
+    optional("unit", ValueType::Text, "The unit, such as kg/m^3."),
+    optional("symbol", ValueType::Text, "The symbol in LaTeX, such as E or \\lambda."),
+    optional("doc", ValueType::Text, "A description, in a few words."),
     optional(
         "range",
-        Holds::Formulas(Length::Exactly(2)),
+        ValueType::Formulas(Length::Exactly(2)),
         "The least and the greatest value that it may take.",
     ),
 ];
 
 /// One of `[given]`.
 pub const GIVEN: &[Key] = &[
-    required("value", Holds::Formula, "The function of X and t; it may use the names above it."),
-    optional("unit", Holds::Text, "The unit, such as K."),
-    optional("doc", Holds::Text, "A description, in a few words."),
+    required(
+        "value",
+        ValueType::Formula,
+        "The function of X and t; it may use the names above it.",
+    ),
+    optional("unit", ValueType::Text, "The unit, such as K."),
+    optional("doc", ValueType::Text, "A description, in a few words."),
 ];
 
 /// `[[balance]]`.
 pub const BALANCE: &[Key] = &[
-    required("name", Holds::Name, "The name; the names of its quantities start with it."),
-    optional("storage", Holds::Formula, "The amount that is stored per reference volume."),
+    required("name", ValueType::Name, "The name; the names of its quantities start with it."),
+    optional("storage", ValueType::Formula, "The amount that is stored per reference volume."),
     optional(
         "flux",
-        Holds::Formulas(Length::Dimension),
+        ValueType::Formulas(Length::Dimension),
         "The flux through reference area: one formula per direction.",
     ),
-    optional("residual", Holds::Formula, "The left side of a constraint, in place of the others."),
+    optional(
+        "residual",
+        ValueType::Formula,
+        "The left side of a constraint, in place of the others.",
+    ),
 ];
 
 /// `[displacement]`.
 pub const DISPLACEMENT: &[Key] = &[
     required(
         "u",
-        Holds::Formulas(Length::Dimension),
+        ValueType::Formulas(Length::Dimension),
         "The displacement u(X, t): one formula per dimension.",
     ),
     optional(
         "swirl",
-        Holds::Formula,
+        ValueType::Formula,
         "The displacement along the hoop of an axisymmetric field: a length.",
     ),
 ];
@@ -232,131 +244,147 @@ pub const DISPLACEMENT: &[Key] = &[
 pub const MATERIAL: &[Key] = &[
     required(
         "model",
-        Holds::Model,
+        ValueType::Model,
         "A shipped material, or the path of a material file, relative to this file.",
     ),
     optional(
         "density",
-        Holds::Formula,
+        ValueType::Formula,
         "The reference density; it may depend on X. A field without a time window may leave it out.",
     ),
     optional(
         "fibre",
-        Holds::Formulas(Length::Exactly(3)),
+        ValueType::Formulas(Length::Exactly(3)),
         "The unit reference direction, in space, of the fibres of a material that uses I4.",
     ),
 ];
 
 /// `[domain]`.
 pub const DOMAIN: &[Key] = &[
-    required("shape", Holds::Word(Shape::words), "The shape of the reference body."),
+    required("shape", ValueType::Word(Shape::words), "The shape of the reference body."),
     optional(
         "lower",
-        Holds::Formulas(Length::Dimension),
+        ValueType::Formulas(Length::Dimension),
         "The least coordinates of a box, one per dimension.",
     ),
     optional(
         "upper",
-        Holds::Formulas(Length::Dimension),
+        ValueType::Formulas(Length::Dimension),
         "The greatest coordinates of a box, one per dimension.",
     ),
     optional(
         "inner",
-        Holds::Formula,
+        ValueType::Formula,
         "The inner radius of an annulus, a cylinder or a sphere around the origin; it may be 0.",
     ),
     optional(
         "outer",
-        Holds::Formula,
+        ValueType::Formula,
         "The outer radius of an annulus, a disk, a cylinder or a sphere around the origin.",
     ),
     optional(
         "theta",
-        Holds::Formulas(Length::Exactly(2)),
+        ValueType::Formulas(Length::Exactly(2)),
         "The first and the last angle about the axis Z of a sector; all around without them.",
     ),
     optional(
         "z",
-        Holds::Formulas(Length::Exactly(2)),
+        ValueType::Formulas(Length::Exactly(2)),
         "The lower and the upper end of a cylinder, whose axis is Z.",
     ),
     optional(
         "phi",
-        Holds::Formulas(Length::Exactly(2)),
+        ValueType::Formulas(Length::Exactly(2)),
         "The first and the last angle from +Z of a part of a sphere; from 0 to pi without them.",
     ),
-    optional("vertices", Holds::Vertices, "The vertices of a polygon, in their order around it."),
+    optional(
+        "vertices",
+        ValueType::Vertices,
+        "The vertices of a polygon, in their order around it.",
+    ),
     optional(
         "names",
-        Holds::Words,
+        ValueType::Words,
         "The names of the edges of a polygon, in the order of the vertices that they start from.",
     ),
     optional(
         "time",
-        Holds::Formulas(Length::Exactly(2)),
+        ValueType::Formulas(Length::Exactly(2)),
         "The first and the last time; none of a static field, whose formulas have no t.",
     ),
 ];
 
 /// `[[check]]`.
 pub const CHECK: &[Key] = &[
-    required("quantity", Holds::Quantity, "The quantity that the closed form must equal."),
+    required("quantity", ValueType::Quantity, "The quantity that the closed form must equal."),
     required(
         "equals",
-        Holds::Formulas(Length::Quantity),
+        ValueType::Formulas(Length::Quantity),
         "Its components, row by row; they must agree to a relative 1e-20.",
     ),
     optional(
         "let",
-        Holds::Names(Keeper::Field, &Holds::Formula),
+        ValueType::Names(ReservingFile::Field, &ValueType::Formula),
         "Names for formulas, for this check alone.",
     ),
-    optional("source", Holds::Text, "Where the closed form comes from."),
+    optional("source", ValueType::Text, "Where the closed form comes from."),
 ];
 
 /// `[[study]]`.
 pub const STUDY: &[Key] = &[
-    optional("shape", Holds::Word(|| SHAPES.to_vec()), "The shape function; cpgimp by default."),
+    optional(
+        "shape",
+        ValueType::Word(|| SHAPES.to_vec()),
+        "The shape function; cpgimp by default.",
+    ),
     optional(
         "integrator",
-        Holds::Word(|| INTEGRATORS.to_vec()),
+        ValueType::Word(|| INTEGRATORS.to_vec()),
         "The time integrator; leapfrog by default.",
     ),
     optional(
         "formulation",
-        Holds::Word(|| FORMULATIONS.to_vec()),
+        ValueType::Word(|| FORMULATIONS.to_vec()),
         "The formulation; updated by default.",
     ),
-    optional("transfer", Holds::Word(|| TRANSFERS.to_vec()), "The transfer; flip by default."),
-    optional("courant", Holds::Positive, "time_step * c0 / cell_size, c0 the fastest wave speed."),
-    optional("particles_per_cell", Holds::Count, "Particles per cell and direction."),
+    optional("transfer", ValueType::Word(|| TRANSFERS.to_vec()), "The transfer; flip by default."),
+    optional(
+        "courant",
+        ValueType::Positive,
+        "time_step * c0 / cell_size, c0 the fastest wave speed.",
+    ),
+    optional("particles_per_cell", ValueType::Count, "Particles per cell and direction."),
     optional(
         "fill",
-        Holds::Word(|| FILLS.to_vec()),
+        ValueType::Word(|| FILLS.to_vec()),
         "How the body is filled with particles: on the cells, or fitted to the body.",
     ),
-    optional("precision", Holds::Word(|| PRECISIONS.to_vec()), "The solver's precision."),
+    optional("precision", ValueType::Word(|| PRECISIONS.to_vec()), "The solver's precision."),
     optional(
         "form",
-        Holds::Word(|| FORMS.to_vec()),
+        ValueType::Word(|| FORMS.to_vec()),
         "How the field's quantities are computed; stable by default.",
     ),
     optional(
         "cells",
-        Holds::Levels,
+        ValueType::Levels,
         "The levels, coarse to fine: cells along the longest edge of the body.",
     ),
-    optional("order", Holds::Positive, "The order that the levels must show; 2 by default."),
-    optional("tolerance", Holds::Positive, "By how much it may differ; 0.15 by default."),
-    optional("reason", Holds::Text, "Why theory says so."),
+    optional("order", ValueType::Positive, "The order that the levels must show; 2 by default."),
+    optional("tolerance", ValueType::Positive, "By how much it may differ; 0.15 by default."),
+    optional("reason", ValueType::Text, "Why theory says so."),
 ];
 
 /// `[[extreme]]`.
 pub const EXTREME: &[Key] = &[
-    required("name", Holds::Text, "The extreme property, in a few words; each name is different."),
+    required(
+        "name",
+        ValueType::Text,
+        "The extreme property, in a few words; each name is different.",
+    ),
     required(
         "set",
-        Holds::Names(Keeper::Field, &Holds::Formula),
+        ValueType::Names(ReservingFile::Field, &ValueType::Formula),
         "The parameters that differ from their defaults.",
     ),
 ];
@@ -365,79 +393,83 @@ pub const EXTREME: &[Key] = &[
 pub const RIGID: &[Key] = &[
     optional(
         "rotation",
-        Holds::Rotation(ROTATION),
+        ValueType::Rotation(ROTATION),
         "The rotation about the origin: an angle in 2-D, an axis and an angle in 3-D.",
     ),
     optional(
         "translation",
-        Holds::Formulas(Length::Dimension),
+        ValueType::Formulas(Length::Dimension),
         "The translation: one formula per dimension.",
     ),
 ];
 
 /// A text with a rigid motion alone.
 pub(super) const RIGID_ALONE: &[Key] =
-    &[required("rigid", Holds::Table(RIGID), "The rigid motion.")];
+    &[required("rigid", ValueType::Table(RIGID), "The rigid motion.")];
 
 /// `rotation` in space.
 pub const ROTATION: &[Key] = &[
     required(
         "axis",
-        Holds::Formulas(Length::Exactly(3)),
+        ValueType::Formulas(Length::Exactly(3)),
         "The axis: three components, of any length.",
     ),
-    required("angle", Holds::Formula, "The angle, in radians."),
+    required("angle", ValueType::Formula, "The angle, in radians."),
 ];
 
 /// A material file.
 pub const MATERIAL_FILE: &[Key] = &[
-    required("material", Holds::Table(MATERIAL_HEADER), "The material: its title and its energy."),
+    required(
+        "material",
+        ValueType::Table(MATERIAL_HEADER),
+        "The material: its title and its energy.",
+    ),
     optional(
         "parameters",
-        Holds::Names(Keeper::Material, &Holds::Table(MATERIAL_PARAMETER)),
+        ValueType::Names(ReservingFile::Material, &ValueType::Table(MATERIAL_PARAMETER)),
         "The parameters; each field gives a formula for them.",
     ),
     optional(
         "given",
-        Holds::Names(Keeper::Material, &Holds::Table(MATERIAL_GIVEN)),
+        ValueType::Names(ReservingFile::Material, &ValueType::Table(MATERIAL_GIVEN)),
         "The given fields that W uses, such as a pressure: each field gives a formula of X and t.",
     ),
     optional(
         "let",
-        Holds::Names(Keeper::Material, &Holds::Formula),
+        ValueType::Names(ReservingFile::Material, &ValueType::Formula),
         "Names for formulas, in order: each may use those above it.",
     ),
 ];
 
 /// `[material]` of a material file.
 pub const MATERIAL_HEADER: &[Key] = &[
-    required("title", Holds::Text, "A title for the material, in a few words."),
-    optional("reference", Holds::Text, "The authors and the publication."),
+    required("title", ValueType::Text, "A title for the material, in a few words."),
+    optional("reference", ValueType::Text, "The authors and the publication."),
     required(
         "strain_energy",
-        Holds::Formula,
+        ValueType::Formula,
         "W per reference volume, in I1, I2, I3, J and I4, or in eps_trace and eps_squared.",
     ),
     optional(
         "frame_indifferent",
-        Holds::Flag,
+        ValueType::Flag,
         "Whether W stays the same under rotations; it does by default, unless it is written in the small strain.",
     ),
 ];
 
 /// One of the `[parameters]` of a material.
 pub const MATERIAL_PARAMETER: &[Key] = &[
-    optional("unit", Holds::Text, "The unit, such as Pa."),
-    optional("doc", Holds::Text, "A description, in a few words."),
+    optional("unit", ValueType::Text, "The unit, such as Pa."),
+    optional("doc", ValueType::Text, "A description, in a few words."),
 ];
 
 /// One of the `[given]` of a material.
 pub const MATERIAL_GIVEN: &[Key] = &[
-    optional("unit", Holds::Text, "The unit, such as Pa."),
-    optional("doc", Holds::Text, "A description, in a few words."),
+    optional("unit", ValueType::Text, "The unit, such as Pa."),
+    optional("doc", ValueType::Text, "A description, in a few words."),
     optional(
         "rest",
-        Holds::Formula,
+        ValueType::Formula,
         "The value in the state of rest, at which the material is judged; 0 if left out.",
     ),
 ];

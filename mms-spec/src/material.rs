@@ -9,11 +9,11 @@ use crate::format::{self, MATERIAL, MATERIAL_FILE, MATERIAL_HEADER};
 use crate::formula::Formula;
 use crate::given::{MaterialGiven, material_givens};
 use crate::moduli::Pair;
-use crate::names::{Keeper, Names};
+use crate::names::{Names, ReservingFile};
 use crate::source::{SourceId, Sources, Span, Spanned};
 use crate::suggest::did_you_mean;
 use crate::symbols::{LetSpec, MaterialParameter, lets, material_parameters};
-use crate::syntax::{self, Kind};
+use crate::syntax::{self, NodeKind};
 use crate::table::{Entry, Reader, Table};
 
 /// The material of a field, and the values of its parameters.
@@ -88,7 +88,7 @@ impl MaterialSpec {
         self.formulas().find_map(|formula| {
             let ast = syntax::parse(formula, &mut Vec::new())?;
             ast.nodes.iter().find_map(|node| match &node.kind {
-                Kind::Name(name) if names.contains(&name.as_str()) => {
+                NodeKind::Name(name) if names.contains(&name.as_str()) => {
                     Some(Spanned { value: name.clone(), span: node.span })
                 }
                 _ => None,
@@ -218,7 +218,7 @@ pub fn read_material(
         return None;
     }
     let root = reader.root("a material file", &document.root, MATERIAL_FILE);
-    let mut names = Names::new(Keeper::Material);
+    let mut names = Names::new(ReservingFile::Material);
     let parameters = reader
         .names(&root, "parameters")
         .map(|table| material_parameters(&table, &mut names, &mut reader));

@@ -49,7 +49,7 @@ pub const INVARIANTS: &[(&str, &str)] = &[
 
 /// The kind of file that reserves names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Keeper {
+pub enum ReservingFile {
     /// A field file.
     Field,
     /// A field file that is written in R and Z.
@@ -58,10 +58,10 @@ pub enum Keeper {
     Material,
 }
 
-impl Keeper {
+impl ReservingFile {
     /// The kind of a field file in a space.
-    pub fn of(space: Space) -> Keeper {
-        if space.is_axisymmetric() { Keeper::Axisymmetric } else { Keeper::Field }
+    pub fn of(space: Space) -> ReservingFile {
+        if space.is_axisymmetric() { ReservingFile::Axisymmetric } else { ReservingFile::Field }
     }
 }
 
@@ -73,22 +73,22 @@ pub fn is_identifier(text: &str) -> bool {
 }
 
 /// The meaning of a reserved name, or `None` if users may define it.
-pub fn reserved(name: &str, keeper: Keeper) -> Option<&'static str> {
+pub fn reserved(name: &str, keeper: ReservingFile) -> Option<&'static str> {
     let among = |names: &[(&str, &'static str)]| {
         names.iter().find(|(kept, _)| *kept == name).map(|(_, meaning)| *meaning)
     };
     match keeper {
         _ if FUNCTIONS.contains(&name) => Some("a function"),
-        Keeper::Field => among(COORDINATES),
-        Keeper::Axisymmetric => among(AXISYMMETRIC),
-        Keeper::Material => among(COORDINATES).or_else(|| among(INVARIANTS)),
+        ReservingFile::Field => among(COORDINATES),
+        ReservingFile::Axisymmetric => among(AXISYMMETRIC),
+        ReservingFile::Material => among(COORDINATES).or_else(|| among(INVARIANTS)),
     }
 }
 
 /// The names that one file has defined so far.
 #[derive(Clone)]
 pub(super) struct Names {
-    keeper: Keeper,
+    keeper: ReservingFile,
     defined: BTreeMap<String, Span>,
     /// The names of the quantities that the file defines.
     own: BTreeMap<String, Span>,
@@ -96,7 +96,7 @@ pub(super) struct Names {
 
 impl Names {
     /// A file without names.
-    pub fn new(keeper: Keeper) -> Self {
+    pub fn new(keeper: ReservingFile) -> Self {
         Names { keeper, defined: BTreeMap::new(), own: BTreeMap::new() }
     }
 
@@ -200,19 +200,19 @@ mod tests {
 
     #[test]
     fn a_field_leaves_the_invariants_free() {
-        assert!(reserved("J", Keeper::Field).is_none());
-        assert!(reserved("J", Keeper::Material).is_some());
-        assert!(reserved("X", Keeper::Material).is_some());
-        assert!(reserved("atan2", Keeper::Field).is_some());
-        assert!(reserved("F", Keeper::Field).is_none());
-        assert!(reserved("R", Keeper::Field).is_none());
+        assert!(reserved("J", ReservingFile::Field).is_none());
+        assert!(reserved("J", ReservingFile::Material).is_some());
+        assert!(reserved("X", ReservingFile::Material).is_some());
+        assert!(reserved("atan2", ReservingFile::Field).is_some());
+        assert!(reserved("F", ReservingFile::Field).is_none());
+        assert!(reserved("R", ReservingFile::Field).is_none());
     }
 
     #[test]
     fn an_axisymmetric_field_keeps_its_coordinates_and_those_it_lacks() {
         for name in ["R", "Z", "X", "Y", "t"] {
-            assert!(reserved(name, Keeper::Axisymmetric).is_some(), "{name}");
+            assert!(reserved(name, ReservingFile::Axisymmetric).is_some(), "{name}");
         }
-        assert!(reserved("theta", Keeper::Axisymmetric).is_none());
+        assert!(reserved("theta", ReservingFile::Axisymmetric).is_none());
     }
 }

@@ -31,7 +31,7 @@ pub struct Node<const D: usize> {
     /// The directions of its displacements, as columns.
     pub basis: SMatrix<f64, D, D>,
     /// The components that the field prescribes.
-    pub is_held: [bool; D],
+    pub is_constrained: [bool; D],
     /// Whether no element has this node: in the middle of a disc, the elements share one of the nodes that coincide.
     pub is_unused: bool,
 }
@@ -126,7 +126,7 @@ impl<const D: usize> Lattice<'_, D> {
         let positions = self.positions(number);
         let fractions = self.fractions(positions);
         let is_unused = self.number(positions) != number;
-        let mut is_held = [is_unused; D];
+        let mut is_constrained = [is_unused; D];
         for (face, claim) in claims(compiled) {
             let (axis, is_upper) = fixed_coordinate(face);
             let end = if is_upper { 2 * self.elements[axis] } else { 0 };
@@ -134,13 +134,13 @@ impl<const D: usize> Lattice<'_, D> {
                 continue;
             }
             match claim {
-                Claim::Fixed | Claim::Prescribed => is_held = [true; D],
-                Claim::Roller => is_held[axis] = true,
+                Claim::Fixed | Claim::Prescribed => is_constrained = [true; D],
+                Claim::Roller => is_constrained[axis] = true,
                 Claim::Free | Claim::Traction | Claim::Axis => {}
             }
         }
         let basis = self.chart.basis(&fractions);
-        Node { place: self.chart.place(&fractions), basis, is_held, is_unused }
+        Node { place: self.chart.place(&fractions), basis, is_constrained, is_unused }
     }
 
     fn quadrature(&self, cell: usize) -> Vec<Quadrature<D>> {

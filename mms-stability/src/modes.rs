@@ -22,12 +22,12 @@ impl<'a, const D: usize> Modes<'a, D> {
     /// The free displacements of `mesh`.
     pub fn new(mesh: &'a Mesh<D>) -> Self {
         let mut free = 0;
-        let number = |is_held: bool| {
-            free += usize::from(!is_held);
-            (!is_held).then(|| free - 1)
+        let number = |is_constrained: bool| {
+            free += usize::from(!is_constrained);
+            (!is_constrained).then(|| free - 1)
         };
         let mut number = number;
-        let numbers = mesh.nodes.iter().map(|node| node.is_held.map(&mut number)).collect();
+        let numbers = mesh.nodes.iter().map(|node| node.is_constrained.map(&mut number)).collect();
         Modes { mesh, numbers, free }
     }
 
@@ -59,7 +59,7 @@ impl<'a, const D: usize> Modes<'a, D> {
     }
 
     /// Sets the constrained displacements to their values in another state.
-    pub fn hold(&self, state: &mut DVector<f64>, given: &DVector<f64>) {
+    pub fn set_constrained(&self, state: &mut DVector<f64>, given: &DVector<f64>) {
         for (at, number) in self.numbers.as_flattened().iter().enumerate() {
             if number.is_none() {
                 state[at] = given[at];
@@ -142,8 +142,11 @@ impl<'a, const D: usize> Modes<'a, D> {
             .iter()
             .map(|motion| places.iter().map(|x| motion((x - middle) / size)).collect())
             .collect();
-        let held: Vec<_> = motions.iter().map(|motion| self.components(motion, true)).collect();
-        let gram = DMatrix::from_fn(held.len(), held.len(), |a, b| held[a].dot(&held[b]));
+        let constrained: Vec<_> =
+            motions.iter().map(|motion| self.components(motion, true)).collect();
+        let gram = DMatrix::from_fn(constrained.len(), constrained.len(), |a, b| {
+            constrained[a].dot(&constrained[b])
+        });
         let eigen = gram.symmetric_eigen();
         let most = HELD * (self.mesh.nodes.len() as f64);
         let mut rigid = Vec::new();
@@ -159,12 +162,13 @@ impl<'a, const D: usize> Modes<'a, D> {
     }
 
     /// The displacements that are constrained, or the free ones.
-    fn components(&self, motion: &[SVector<f64, D>], is_held: bool) -> DVector<f64> {
+    fn components(&self, motion: &[SVector<f64, D>], is_constrained: bool) -> DVector<f64> {
         let mut components = Vec::new();
         for ((node, numbers), moved) in self.mesh.nodes.iter().zip(&self.numbers).zip(motion) {
             let local = node.basis.transpose() * moved;
             // A node without elements constrains nothing.
-            let kept = (0..D).filter(|axis| numbers[*axis].is_none() == is_held && !node.is_unused);
+            let kept =
+                (0..D).filter(|axis| numbers[*axis].is_none() == is_constrained && !node.is_unused);
             components.extend(kept.map(|axis| local[axis]));
         }
         DVector::from_vec(components)

@@ -32,7 +32,7 @@ impl Material {
 
     pub(crate) fn of_subject<const D: usize>(subject: &mut Subject<'_, D>) -> Option<Self> {
         let [corner, middle] = [0.0, 0.5].map(|part| subject.chart.place(&[part; D]));
-        let (middle, corner) = (subject.resting(&middle)?, subject.resting(&corner));
+        let (middle, corner) = (subject.at_rest(&middle)?, subject.at_rest(&corner));
         let is_graded = corner.is_some_and(|corner| corner != middle);
         Some(Material { middle, is_graded })
     }
@@ -80,12 +80,12 @@ impl Moduli {
 impl Resting {
     /// The shear modulus of a material whose volume is governed by a given field, such as a pressure: it has no other modulus.
     pub fn shear_alone(&self) -> Option<f64> {
-        self.is_pressed.then(|| average(&self.stiffness()).mu)
+        self.has_balanced_pressure.then(|| average(&self.stiffness()).mu)
     }
 
     /// The moduli of a material that is isotropic at rest; `None` for others.
     pub fn moduli(&self) -> Option<Moduli> {
-        if self.is_pressed {
+        if self.has_balanced_pressure {
             return None;
         }
         let stiffness = self.stiffness();
@@ -108,7 +108,7 @@ impl Resting {
     pub(crate) fn stiffness(&self) -> Elasticity<3> {
         let delta = |a: usize, b: usize| f64::from(u8::from(a == b));
         Elasticity::from_fn(|[i, j, k, l]| {
-            if self.is_pressed {
+            if self.has_balanced_pressure {
                 let adds = delta(i, l) * delta(j, k) - delta(i, j) * delta(k, l);
                 return self.tangent.at([i, j, k, l]) + self.stress[0] * adds;
             }

@@ -144,7 +144,7 @@ fn pinned<const D: usize>(compiled: &Compiled, subject: &mut Subject<'_, D>) -> 
         pins.extend(modes.place(pin));
     }
     for (node, axis) in pins {
-        mesh.nodes[node].is_held[axis] = true;
+        mesh.nodes[node].is_constrained[axis] = true;
     }
     Some(mesh)
 }
@@ -180,7 +180,7 @@ impl<'a, const D: usize> Problem<'a, D> {
         mut state: DVector<f64>,
         part: f64,
     ) -> Option<DVector<f64>> {
-        self.modes.hold(&mut state, &(&self.exact * part));
+        self.modes.set_constrained(&mut state, &(&self.exact * part));
         for _ in 0..ITERATIONS {
             let (residual, pencil) = self.linear(subject, &state, part)?;
             let change = pencil.stiffness.lu().solve(&residual)?;

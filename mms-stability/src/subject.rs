@@ -22,7 +22,7 @@ const STEPS: u64 = 100_000_000;
 
 /// The outputs of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Output {
+enum StateOutput {
     Position,
     Gradient,
     Density,
@@ -36,7 +36,7 @@ enum Output {
 /// The program that computes states of a field, with its budget.
 #[derive(Debug)]
 pub struct Formulas {
-    program: Program<Output>,
+    program: Program<StateOutput>,
     parameters: Vec<f64>,
     /// The budget of all evaluations together.
     work: Work,
@@ -44,7 +44,7 @@ pub struct Formulas {
     is_static: bool,
     is_frame_indifferent: bool,
     /// Whether given fields balance a spherical stress at rest.
-    is_pressed: bool,
+    has_balanced_pressure: bool,
 }
 
 impl Formulas {
@@ -58,25 +58,32 @@ impl Formulas {
         let response = |response| derived.responses[&response].clone();
         let [stress, tangent] = at_rest(&mut graph, &compiled.model);
         let (field, material, model) = (&compiled.field, &compiled.material, &compiled.model);
-        let is_pressed = !model.givens.is_empty()
+        let has_balanced_pressure = !model.givens.is_empty()
             && !graph.is_zero(stress[0])
             && is_spherical(&graph, &stress)
             && !pressures(&mut graph, field, material, model).is_empty();
         let position = quantity(Quantity::Position);
         let is_static = is_static(&mut graph, &position);
         let outputs = SortedMap::from([
-            (Output::Position, position),
-            (Output::Gradient, quantity(Quantity::DisplacementGradient)),
-            (Output::Density, response(Response::Density)),
-            (Output::Stress, response(Response::FirstPiolaKirchhoff)),
-            (Output::RestStress, stress),
-            (Output::RestTangent, tangent),
+            (StateOutput::Position, position),
+            (StateOutput::Gradient, quantity(Quantity::DisplacementGradient)),
+            (StateOutput::Density, response(Response::Density)),
+            (StateOutput::Stress, response(Response::FirstPiolaKirchhoff)),
+            (StateOutput::RestStress, stress),
+            (StateOutput::RestTangent, tangent),
         ]);
         let program = schedule_plainly(&graph, &outputs);
         let work = graph.work().share();
         let is_frame_indifferent = compiled.material.frame_indifferent;
         let parameters = compiled.parameters(&SortedMap::new());
-        Formulas { program, parameters, work, is_static, is_frame_indifferent, is_pressed }
+        Formulas {
+            program,
+            parameters,
+            work,
+            is_static,
+            is_frame_indifferent,
+            has_balanced_pressure,
+        }
     }
 
     /// Whether the budget is spent: then no state has a value.
@@ -115,7 +122,7 @@ pub struct Resting {
     /// Whether rotations cost no energy: a stress at rest then contributes to dP/dF.
     pub is_frame_indifferent: bool,
     /// Whether given fields balance a spherical stress at rest.
-    pub is_pressed: bool,
+    pub has_balanced_pressure: bool,
 }
 
 /// A compiled field, evaluated.
@@ -127,28 +134,28 @@ pub struct Subject<'a, const D: usize> {
     /// Whether u does not depend on t.
     pub is_static: bool,
     is_frame_indifferent: bool,
-    is_pressed: bool,
+    has_balanced_pressure: bool,
     work: &'a Work,
     field: Evaluated<'a, f64>,
     material: Evaluated<'a, Dual<f64>>,
 }
 
 struct Evaluated<'a, T: Number> {
-    interpreter: Interpreter<'a, T, Output>,
+    interpreter: Interpreter<'a, T, StateOutput>,
     /// The time of the last evaluation.
     time: Option<T>,
-    plans: SortedMap<Output, Vec<bool>>,
+    plans: SortedMap<StateOutput, Vec<bool>>,
 }
 
 impl<'a, T: Number> Evaluated<'a, T> {
     fn new(formulas: &'a Formulas, parameters: &[T]) -> Self {
         let interpreter = Interpreter::within(&formulas.work, &formulas.program, parameters);
-        let plan = |output: &Output| (*output, interpreter.plan(&[*output]));
+        let plan = |output: &StateOutput| (*output, interpreter.plan(&[*output]));
         let plans = formulas.program.outputs.keys().map(plan).collect();
         Evaluated { interpreter, time: None, plans }
     }
 
-    fn at(&mut self, output: Output, point: Point<'_, T>) -> Vec<T> {
+    fn at(&mut self, output: StateOutput, point: Point<'_, T>) -> Vec<T> {
         self.interpreter.set_point(&self.plans[&output], point);
         self.interpreter.output(output)
     }
@@ -164,7 +171,7 @@ impl<'a, const D: usize> Subject<'a, D> {
             window,
             is_static: formulas.is_static,
             is_frame_indifferent: formulas.is_frame_indifferent,
-            is_pressed: formulas.is_pressed,
+            has_balanced_pressure: formulas.has_balanced_pressure,
             work: &formulas.work,
             field: Evaluated::new(formulas, &formulas.parameters),
             material: Evaluated::new(formulas, &duals),
@@ -178,7 +185,7 @@ impl<'a, const D: usize> Subject<'a, D> {
 
     /// x.
     pub fn position(&mut self, place: &SVector<f64, D>, time: f64) -> SVector<f64, D> {
-        SVector::from_vec(self.value(Output::Position, place, time))
+        SVector::from_vec(self.value(StateOutput::Position, place, time))
     }
 
     /// The state at X and t; `None` if it is not finite.
@@ -186,10 +193,10 @@ impl<'a, const D: usize> Subject<'a, D> {
         if self.work.is_over() {
             return None;
         }
-        let gradient = self.value(Output::Gradient, place, time);
+        let gradient = self.value(StateOutput::Gradient, place, time);
         let (stress, elasticity) = self.response(place, time, &gradient);
-        let density = self.value(Output::Density, place, time)[0];
-        let modulus = self.resting(place)?.modulus();
+        let density = self.value(StateOutput::Density, place, time)[0];
+        let modulus = self.at_rest(place)?.modulus();
         let is_finite = elasticity.is_finite() && density.is_finite() && modulus > 0.0;
         is_finite.then(|| State {
             deformation: SMatrix::identity() + SMatrix::from_row_slice(&gradient),
@@ -201,13 +208,14 @@ impl<'a, const D: usize> Subject<'a, D> {
     }
 
     /// The material at rest at X; `None` if it is not finite.
-    pub fn resting(&mut self, place: &SVector<f64, D>) -> Option<Resting> {
-        let stress = self.value(Output::RestStress, place, self.window[0]);
-        let tangent = self.value(Output::RestTangent, place, self.window[0]);
+    pub fn at_rest(&mut self, place: &SVector<f64, D>) -> Option<Resting> {
+        let stress = self.value(StateOutput::RestStress, place, self.window[0]);
+        let tangent = self.value(StateOutput::RestTangent, place, self.window[0]);
         let at = |[i, j, k, l]: [usize; 4]| tangent[((i * 3 + j) * 3 + k) * 3 + l];
-        let (is_frame_indifferent, is_pressed) = (self.is_frame_indifferent, self.is_pressed);
+        let (is_frame_indifferent, has_balanced_pressure) =
+            (self.is_frame_indifferent, self.has_balanced_pressure);
         let tangent = Elasticity::from_fn(at);
-        let resting = Resting { stress, tangent, is_frame_indifferent, is_pressed };
+        let resting = Resting { stress, tangent, is_frame_indifferent, has_balanced_pressure };
         let is_finite =
             resting.tangent.is_finite() && resting.stress.iter().all(|it| it.is_finite());
         is_finite.then_some(resting)
@@ -231,7 +239,7 @@ impl<'a, const D: usize> Subject<'a, D> {
             };
             let gradient: Vec<_> = gradient.iter().enumerate().map(moved).collect();
             let point = Point { coordinates: &coordinates, normal: &[], gradient: &gradient };
-            let components = self.material.at(Output::Stress, point);
+            let components = self.material.at(StateOutput::Stress, point);
             stress = SMatrix::from_fn(|row, column| components[row * D + column].value);
             columns.push(components);
         }
@@ -239,7 +247,7 @@ impl<'a, const D: usize> Subject<'a, D> {
         (stress, Elasticity::from_fn(slope))
     }
 
-    fn value(&mut self, output: Output, place: &SVector<f64, D>, time: f64) -> Vec<f64> {
+    fn value(&mut self, output: StateOutput, place: &SVector<f64, D>, time: f64) -> Vec<f64> {
         if self.field.time != Some(time) {
             self.field.interpreter.set_time(&time);
             self.field.time = Some(time);

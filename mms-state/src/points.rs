@@ -65,7 +65,7 @@ impl Given {
             Given::Reference(points) => Ok(Cow::Borrowed(points)),
             Given::Present(places) => {
                 let input = exact.input();
-                ensure!(!exact.turns(), "`--at-present`: {TURNS}; give X");
+                ensure!(!exact.has_swirl(), "`--at-present`: {TURNS}; give X");
                 let mut inverse = Inverse::new(&input.compiled, &input.settings(settings)?, time);
                 Ok(Cow::Owned(places.points(&mut inverse, exact.dimension, time)?))
             }

@@ -80,7 +80,7 @@ impl Work {
     }
 
     /// Runs `work` with `steps` steps of its own, which do not reduce the budget.
-    pub fn aside<R>(&self, steps: u64, work: impl FnOnce() -> R) -> R {
+    pub fn with_own_budget<R>(&self, steps: u64, work: impl FnOnce() -> R) -> R {
         let left = self.left.load(Ordering::Relaxed);
         self.allow(steps);
         let made = work();
@@ -120,7 +120,7 @@ mod tests {
         own.spend(20);
         assert_eq!((work.left(), shared.left(), own.left()), (3, 3, 0));
         assert!(own.is_over() && !work.is_over());
-        assert!(work.aside(1, || (work.spend(1), work.is_over()).1));
+        assert!(work.with_own_budget(1, || (work.spend(1), work.is_over()).1));
         assert_eq!(work.left(), 3);
     }
 

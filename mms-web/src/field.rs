@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use anyhow::anyhow;
-use mms_check::Asked;
+use mms_check::CheckOptions;
 use mms_codegen::Options;
 use mms_codegen::selection::Selection;
 use mms_documents::check::CheckedFile;
@@ -116,7 +116,7 @@ pub struct Checked {
 pub fn check(field: &FieldText) -> Result<Checked, Mistake> {
     let source = field.source();
     let compiled = Arc::new(source.compile(&Options::default())?);
-    let report = mms_check::check(source.name(), &compiled, Asked::default());
+    let report = mms_check::check(source.name(), &compiled, CheckOptions::default());
     let told = report.objections.iter().chain(&report.warnings);
     Ok(Checked {
         text: report.lines.join("\n"),

@@ -8,7 +8,7 @@ use jsonschema::Validator;
 use mms_codegen::compile::compile_unproved;
 use mms_codegen::{Options, Selection};
 use mms_spec::format::{MATERIAL, names};
-use mms_spec::names::{Keeper, is_identifier, reserved};
+use mms_spec::names::{ReservingFile, is_identifier, reserved};
 use mms_spec::quantity::Quantity;
 use mms_spec::source::Sources;
 use mms_spec::{read_field, read_material};
@@ -120,7 +120,7 @@ fn own_material(text: &str) -> String {
     let is_parameter = |name: &&str| {
         !names(MATERIAL).contains(name)
             && is_identifier(name)
-            && reserved(name, Keeper::Material).is_none()
+            && reserved(name, ReservingFile::Material).is_none()
     };
     let parameters = given.filter(is_parameter).map(|name| format!("{name} = {{}}\n"));
     let parameters: String = parameters.collect();

@@ -22,7 +22,7 @@ use mms_math::{Double, Scalar as _};
 
 pub use errors::Errors;
 use errors::Tally;
-pub use points::{Input, Place, inputs};
+pub use points::{Input, SampleRegion, inputs};
 
 use probe::Search;
 use regime::{Case, REGIMES, Regime};
@@ -196,14 +196,14 @@ impl Accuracy {
         let mut leave_out = |quantity, precision, reason: String| {
             self.left_out.push(LeftOut { regime: name.clone(), quantity, precision, reason });
         };
-        let made = case.and_then(|case| Made::new(case, subject, request));
+        let made = case.and_then(|case| CompiledRegime::new(case, subject, request));
         let made = match made {
             Ok(made) => made,
             Err(reason) => return leave_out(None, None, reason),
         };
         let mut rows = Vec::new();
         for (precision, found) in request.precisions.iter().zip(made.all_errors(request)) {
-            let Found { errors, unsettled } = match found {
+            let PrecisionErrors { errors, unsettled } = match found {
                 Ok(found) => found,
                 Err(reason) => {
                     leave_out(None, Some(*precision), reason);
@@ -228,7 +228,7 @@ impl Accuracy {
 }
 
 /// The measurements in one precision.
-struct Found {
+struct PrecisionErrors {
     /// The errors of each quantity and form.
     errors: Vec<(Quantity, Form, Errors)>,
     /// The quantities whose true values are not known.
@@ -236,22 +236,22 @@ struct Found {
 }
 
 /// A regime of a field, compiled.
-struct Made {
+struct CompiledRegime {
     case: Case,
     reference: Arc<Compiled>,
     forms: Vec<(Form, Arc<Compiled>)>,
 }
 
-impl Made {
+impl CompiledRegime {
     fn new(case: Case, subject: &Variants, request: &Request) -> Result<Self, String> {
         let compiled = |form: &Form| Ok((*form, subject.of_case(&case, *form)?));
         let forms = request.forms.iter().map(compiled).collect::<Result<_, String>>()?;
         let reference = subject.of_case(&case, Form::Stable)?;
-        Ok(Made { case, reference, forms })
+        Ok(CompiledRegime { case, reference, forms })
     }
 
     /// Computes the errors in each precision, in parallel.
-    fn all_errors(&self, request: &Request) -> Vec<Result<Found, String>> {
+    fn all_errors(&self, request: &Request) -> Vec<Result<PrecisionErrors, String>> {
         thread::scope(|scope| {
             let start = |precision: &Precision| match precision {
                 Precision::F32 => scope.spawn(|| self.errors::<f32>(request)),
@@ -265,7 +265,7 @@ impl Made {
     }
 
     /// Computes the errors of each quantity and form in a precision; the error is the reason why there are none.
-    fn errors<T: Digits>(&self, request: &Request) -> Result<Found, String> {
+    fn errors<T: Digits>(&self, request: &Request) -> Result<PrecisionErrors, String> {
         let set = self.case.values(T::PRECISION);
         if self.case.variation == Variation::Nothing {
             self.reference.accepts(&set).map_err(|failure| first_line(&failure))?;
@@ -279,8 +279,9 @@ impl Made {
         if inputs.is_empty() {
             return Err("0 is neither in the body nor in the time window".into());
         }
-        let run = Run { made: self, parameters, inputs };
-        let mut found = Found { errors: Vec::new(), unsettled: request.quantities.clone() };
+        let run = RegimeInputs { made: self, parameters, inputs };
+        let mut found =
+            PrecisionErrors { errors: Vec::new(), unsettled: request.quantities.clone() };
         // Enough bits that more do not change the values. The largest numbers have 1024 before the point.
         run.decide::<256, 1536>(&mut found)?;
         run.decide::<1536, 4096>(&mut found)?;
@@ -290,8 +291,8 @@ impl Made {
 }
 
 /// The inputs of a regime in a precision.
-struct Run<'a, T> {
-    made: &'a Made,
+struct RegimeInputs<'a, T> {
+    made: &'a CompiledRegime,
     parameters: Vec<T>,
     inputs: Vec<Input<T>>,
 }
@@ -316,11 +317,11 @@ impl<'a, T: mms_program::interpret::Number> Evaluation<'a, T> {
     }
 }
 
-impl<T: Digits> Run<'_, T> {
+impl<T: Digits> RegimeInputs<'_, T> {
     /// Adds the errors of quantities for which references of different digits agree.
     fn decide<const BITS: usize, const MORE: usize>(
         &self,
-        found: &mut Found,
+        found: &mut PrecisionErrors,
     ) -> Result<(), String> {
         if found.unsettled.is_empty() {
             return Ok(());

@@ -11,7 +11,7 @@ use mms_symbolic::expr::Rational;
 
 /// The region of points and times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum SampleRegion {
     /// In the body, at times of the window.
     Body,
     /// In the body, with s added along each axis: s is the last parameter.
@@ -24,7 +24,7 @@ pub enum Place {
     Largest,
 }
 
-/// The number of time windows by which [`Place::Late`] is later.
+/// The number of time windows by which [`SampleRegion::Late`] is later.
 pub const LATE: f64 = 1e6;
 
 /// The inputs of one evaluation.
@@ -79,7 +79,7 @@ impl Random {
 pub fn inputs<T: Digits>(
     compiled: &Compiled,
     parameters: &[T],
-    place: Place,
+    place: SampleRegion,
     count: usize,
 ) -> Vec<Input<T>> {
     let (extent, window) = domain(&compiled.program, parameters);
@@ -87,17 +87,17 @@ pub fn inputs<T: Digits>(
     let inputs = (0..count).filter_map(|index| {
         let mut input = inside(&extent, &window, index, &mut random);
         match place {
-            Place::Body => {}
-            Place::Shifted => {
+            SampleRegion::Body => {}
+            SampleRegion::Shifted => {
                 let shift = *parameters.last()?;
                 let axes = free_axes(compiled.field.space);
                 input.coordinates[axes].iter_mut().for_each(|x| *x = *x + shift);
             }
-            Place::Late => {
+            SampleRegion::Late => {
                 input.time = input.time + (window[1] - window[0]) * T::from_f64(LATE);
             }
-            Place::Subnormal => subnormal(&mut input, &extent, &window, index)?,
-            Place::Largest => largest(&mut input, index),
+            SampleRegion::Subnormal => subnormal(&mut input, &extent, &window, index)?,
+            SampleRegion::Largest => largest(&mut input, index),
         }
         Some(input)
     });

@@ -2,7 +2,7 @@
 
 use mms_math::Scalar as _;
 
-use super::points::{Input, Place, exact, inputs};
+use super::points::{Input, SampleRegion, exact, inputs};
 use mms_codegen::compile::Compiled;
 use mms_mechanics::extent::{Extent, spread};
 use mms_mechanics::sample::domain;
@@ -88,7 +88,7 @@ fn largest_displacement(compiled: &Compiled, set: &SortedMap<usize, Rational>) -
     let parameters = compiled.parameters::<Precise>(set);
     let mut interpreter = Interpreter::new(&compiled.program, &parameters);
     let plan = interpreter.plan(&[output]);
-    let points = inputs(compiled, &compiled.parameters::<f64>(set), Place::Body, POINTS);
+    let points = inputs(compiled, &compiled.parameters::<f64>(set), SampleRegion::Body, POINTS);
     let mut largest = 0.0_f64;
     for input in points {
         let coordinates: Vec<_> = input.coordinates.iter().map(|x| Precise::from_f64(*x)).collect();
@@ -191,7 +191,7 @@ impl Points {
         let parameters = compiled.parameters::<f64>(&SortedMap::new());
         match search {
             Search::Points(count) => {
-                Points::Some(inputs(compiled, &parameters, Place::Body, count))
+                Points::Some(inputs(compiled, &parameters, SampleRegion::Body, count))
             }
             Search::Everywhere => {
                 let axes = domain(&compiled.program, &parameters).0.dimension() + 1;

@@ -5,7 +5,7 @@
 //! body and time window do not change, and J near 0 is found by raising it), or from a variation of the field
 //! ([`mms_codegen::variation`]). A regime that does not apply to a field is left out with the reason.
 
-use super::points::{LATE, Place, exact, size};
+use super::points::{LATE, SampleRegion, exact, size};
 use super::probe::{Amplitude, Search, amplitude_for_jacobian, set};
 use super::variants::Variants;
 use mms_codegen::compile::Compiled;
@@ -22,11 +22,11 @@ pub struct Regime {
     pub name: &'static str,
     /// A description of the extreme.
     pub doc: &'static str,
-    kind: Kind,
+    kind: RegimeKind,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Kind {
+enum RegimeKind {
     Declared,
     Displacement(f64),
     Jacobian(f64),
@@ -34,38 +34,38 @@ enum Kind {
     Stress(f64),
     Length(f64),
     Shifted,
-    At(Place),
+    At(SampleRegion),
     SubnormalAmplitude,
     LargestAmplitude,
 }
 
-const fn regime(name: &'static str, doc: &'static str, kind: Kind) -> Regime {
+const fn regime(name: &'static str, doc: &'static str, kind: RegimeKind) -> Regime {
     Regime { name, doc, kind }
 }
 
 /// Every regime, except for the `[[extreme]]` tables of a field.
 #[rustfmt::skip]
 pub const REGIMES: &[Regime] = &[
-    regime("declared", "as the file says", Kind::Declared),
-    regime("displacement_1e-4", "displacement 1e-4 of the size", Kind::Displacement(1e-4)),
-    regime("displacement_1e-8", "displacement 1e-8 of the size", Kind::Displacement(1e-8)),
-    regime("displacement_1e-12", "displacement 1e-12 of the size", Kind::Displacement(1e-12)),
-    regime("displacement_1e-15", "displacement 1e-15 of the size", Kind::Displacement(1e-15)),
-    regime("jacobian_1e-3", "amplitude such that J falls to 1e-3", Kind::Jacobian(1e-3)),
-    regime("jacobian_1e-6", "amplitude such that J falls to 1e-6", Kind::Jacobian(1e-6)),
-    regime("jacobian_1e3", "amplitude such that J rises to 1e3", Kind::Jacobian(1e3)),
-    regime("lambda_mu_1e8", "lambda/mu = 1e8", Kind::Moduli("1e8")),
-    regime("lambda_mu_0", "lambda = 0", Kind::Moduli("0")),
-    regime("moduli_1e-9", "moduli of 1e-9 in their unit", Kind::Stress(1e-9)),
-    regime("moduli_1e9", "moduli of 1e9 in their unit", Kind::Stress(1e9)),
-    regime("lengths_1e-9", "lengths of 1e-9 in their unit", Kind::Length(1e-9)),
-    regime("lengths_1e9", "lengths of 1e9 in their unit", Kind::Length(1e9)),
-    regime("origin_1e6", "the body 1e6 times its size away from the origin", Kind::Shifted),
-    regime("time_1e6", "1e6 time windows later", Kind::At(Place::Late)),
-    regime("subnormal_inputs", "a coordinate or the time is subnormal", Kind::At(Place::Subnormal)),
-    regime("largest_inputs", "a coordinate or the time is the largest finite number", Kind::At(Place::Largest)),
-    regime("subnormal_amplitude", "amplitude is subnormal", Kind::SubnormalAmplitude),
-    regime("largest_amplitude", "amplitude is the largest finite number", Kind::LargestAmplitude),
+    regime("declared", "as the file says", RegimeKind::Declared),
+    regime("displacement_1e-4", "displacement 1e-4 of the size", RegimeKind::Displacement(1e-4)),
+    regime("displacement_1e-8", "displacement 1e-8 of the size", RegimeKind::Displacement(1e-8)),
+    regime("displacement_1e-12", "displacement 1e-12 of the size", RegimeKind::Displacement(1e-12)),
+    regime("displacement_1e-15", "displacement 1e-15 of the size", RegimeKind::Displacement(1e-15)),
+    regime("jacobian_1e-3", "amplitude such that J falls to 1e-3", RegimeKind::Jacobian(1e-3)),
+    regime("jacobian_1e-6", "amplitude such that J falls to 1e-6", RegimeKind::Jacobian(1e-6)),
+    regime("jacobian_1e3", "amplitude such that J rises to 1e3", RegimeKind::Jacobian(1e3)),
+    regime("lambda_mu_1e8", "lambda/mu = 1e8", RegimeKind::Moduli("1e8")),
+    regime("lambda_mu_0", "lambda = 0", RegimeKind::Moduli("0")),
+    regime("moduli_1e-9", "moduli of 1e-9 in their unit", RegimeKind::Stress(1e-9)),
+    regime("moduli_1e9", "moduli of 1e9 in their unit", RegimeKind::Stress(1e9)),
+    regime("lengths_1e-9", "lengths of 1e-9 in their unit", RegimeKind::Length(1e-9)),
+    regime("lengths_1e9", "lengths of 1e9 in their unit", RegimeKind::Length(1e9)),
+    regime("origin_1e6", "the body 1e6 times its size away from the origin", RegimeKind::Shifted),
+    regime("time_1e6", "1e6 time windows later", RegimeKind::At(SampleRegion::Late)),
+    regime("subnormal_inputs", "a coordinate or the time is subnormal", RegimeKind::At(SampleRegion::Subnormal)),
+    regime("largest_inputs", "a coordinate or the time is the largest finite number", RegimeKind::At(SampleRegion::Largest)),
+    regime("subnormal_amplitude", "amplitude is subnormal", RegimeKind::SubnormalAmplitude),
+    regime("largest_amplitude", "amplitude is the largest finite number", RegimeKind::LargestAmplitude),
 ];
 
 /// The regime of that name.
@@ -81,7 +81,7 @@ pub(super) struct Case {
     /// The `[[extreme]]` table that applies, by index.
     pub extreme: Option<usize>,
     /// The place of the points.
-    pub place: Place,
+    pub place: SampleRegion,
     /// The least J of points that count.
     pub least_jacobian: Option<f64>,
     setting: Setting,
@@ -100,7 +100,7 @@ impl Case {
         Case {
             variation: Variation::Nothing,
             extreme: None,
-            place: Place::Body,
+            place: SampleRegion::Body,
             least_jacobian: None,
             setting: Setting::Values(SortedMap::new()),
         }
@@ -126,28 +126,33 @@ impl Regime {
     pub(super) fn case(&self, subject: &Variants, search: Search) -> Result<Case, String> {
         let plain = Case::plain();
         Ok(match self.kind {
-            Kind::Declared => plain,
-            Kind::At(place) => Case { place, ..plain },
-            Kind::Moduli(ratio) => {
+            RegimeKind::Declared => plain,
+            RegimeKind::At(place) => Case { place, ..plain },
+            RegimeKind::Moduli(ratio) => {
                 let variation = Variation::Moduli(ratio.into());
                 variation.fits(&subject.plain().field)?;
                 Case { variation, ..plain }
             }
-            Kind::Stress(target) => {
+            RegimeKind::Stress(target) => {
                 let values = scaled(subject.plain(), &Dimension::stress(), "stress", target)?;
                 Case { setting: Setting::Values(values), ..plain }
             }
-            Kind::Length(target) => {
+            RegimeKind::Length(target) => {
                 let values = scaled(subject.plain(), &Dimension::length(), "length", target)?;
                 Case { setting: Setting::Values(values), ..plain }
             }
-            Kind::Shifted => {
+            RegimeKind::Shifted => {
                 let field = subject.plain();
                 let shift = LATE * size(field, &field.parameters::<f64>(&SortedMap::new()));
                 let setting = Setting::Values(set(field.model.parameters.len(), shift));
-                Case { variation: Variation::Shifted, place: Place::Shifted, setting, ..plain }
+                Case {
+                    variation: Variation::Shifted,
+                    place: SampleRegion::Shifted,
+                    setting,
+                    ..plain
+                }
             }
-            Kind::Displacement(part) => {
+            RegimeKind::Displacement(part) => {
                 let field = subject.plain();
                 let displacement = part * size(field, &field.parameters::<f64>(&SortedMap::new()));
                 with_amplitude(subject, |_, amplitude| {
@@ -155,7 +160,7 @@ impl Regime {
                     Ok(Setting::Values(set(amplitude.parameter, value)))
                 })?
             }
-            Kind::Jacobian(target) => {
+            RegimeKind::Jacobian(target) => {
                 let case = with_amplitude(subject, |field, amplitude| {
                     let value = amplitude_for_jacobian(field, amplitude, target, search)?;
                     Ok(Setting::Values(set(amplitude.parameter, value)))
@@ -163,10 +168,10 @@ impl Regime {
                 // If a large amplitude turns the body inside out, u is not a motion.
                 Case { least_jacobian: (target > 1.0).then_some(0.5), ..case }
             }
-            Kind::SubnormalAmplitude => {
+            RegimeKind::SubnormalAmplitude => {
                 with_amplitude(subject, |_, it| Ok(Setting::Subnormal(it.parameter)))?
             }
-            Kind::LargestAmplitude => {
+            RegimeKind::LargestAmplitude => {
                 with_amplitude(subject, |_, it| Ok(Setting::Largest(it.parameter)))?
             }
         })

@@ -41,7 +41,7 @@ pub fn near_zero(
     if candidates.is_empty() || field.domain.body.is_nothing() {
         return;
     }
-    let proved: SortedMap<Expr, Small> = graph.aside(|graph| {
+    let proved: SortedMap<Expr, Small> = graph.with_temporary_nodes(|graph| {
         let chart = Chart::new(graph, field, model, None);
         let proved = |angle| Some((angle, proved(graph, &chart, angle)?));
         candidates.into_iter().filter_map(proved).collect()

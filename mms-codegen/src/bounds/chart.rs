@@ -83,7 +83,7 @@ impl Chart {
             }
         }
         variables.extend(face::ranges(graph, body, face));
-        let places = face::places(graph, body, face);
+        let places = face::positions(graph, body, face);
         let system = match body {
             Region::Block(Block { system, .. }) => *system,
             _ => System::Cartesian,
@@ -335,22 +335,22 @@ impl Chart {
     }
 
     /// Prepares a program of pulled-back formulas.
-    pub fn run<'a, T: Number, K: Key>(&'a self, program: &'a Program<K>) -> Run<'a, T, K> {
+    pub fn run<'a, T: Number, K: Key>(&'a self, program: &'a Program<K>) -> ChartProgram<'a, T, K> {
         let ready = self.ranged().next().is_none().then(|| {
             let parameters = self.raw_parameters::<T>(&[]);
             Interpreter::within(&self.work, program, &parameters)
         });
-        Run { chart: self, program, ready, plans: Vec::new(), times: 1 }
+        ChartProgram { chart: self, program, ready, plans: Vec::new(), cost_factor: 1 }
     }
 
-    /// Prepares the map from the variables of the chart to parameters, time and X: see [`Run::point`].
-    pub fn points<T: Number>(&self) -> Run<'_, T, ChartOutput> {
+    /// Prepares the map from the variables of the chart to parameters, time and X: see [`ChartProgram::point`].
+    pub fn points<T: Number>(&self) -> ChartProgram<'_, T, ChartOutput> {
         self.run(&self.program)
     }
 }
 
 /// A program of formulas in the variables of a chart.
-pub struct Run<'a, T: Number, K> {
+pub struct ChartProgram<'a, T: Number, K> {
     chart: &'a Chart,
     program: &'a Program<K>,
     /// The interpreter after the stage of parameters, if none of them varies.
@@ -358,7 +358,7 @@ pub struct Run<'a, T: Number, K> {
     /// The instructions that each requested list of outputs needs.
     plans: Vec<(Vec<K>, Vec<bool>)>,
     /// The factor by which the cost of each operation is multiplied in the budget.
-    times: u64,
+    cost_factor: u64,
 }
 
 /// All parameters, t and X.
@@ -380,7 +380,7 @@ impl ChartPoint<Precise> {
     }
 }
 
-impl<T: Number> Run<'_, T, ChartOutput> {
+impl<T: Number> ChartProgram<'_, T, ChartOutput> {
     /// All parameters, t and X at values of the variables.
     pub fn point(&mut self, values: &[T]) -> ChartPoint<T> {
         let [parameters, coordinates] = self
@@ -391,11 +391,11 @@ impl<T: Number> Run<'_, T, ChartOutput> {
     }
 }
 
-impl<T: Number, K: Key> Run<'_, T, K> {
-    /// Charges every operation `times` its steps.
-    pub fn charge(&mut self, times: u64) {
-        self.times = times;
-        self.ready.iter_mut().for_each(|ready| ready.charge(times));
+impl<T: Number, K: Key> ChartProgram<'_, T, K> {
+    /// Charges every operation `cost_factor` times its steps.
+    pub fn charge(&mut self, cost_factor: u64) {
+        self.cost_factor = cost_factor;
+        self.ready.iter_mut().for_each(|ready| ready.charge(cost_factor));
     }
 
     /// Computes some outputs at values of the variables.
@@ -416,7 +416,7 @@ impl<T: Number, K: Key> Run<'_, T, K> {
             None => {
                 let parameters = self.chart.raw_parameters(values);
                 let work = &self.chart.work;
-                own = Interpreter::as_many(work, self.program, &parameters, self.times);
+                own = Interpreter::as_many(work, self.program, &parameters, self.cost_factor);
                 &mut own
             }
         };

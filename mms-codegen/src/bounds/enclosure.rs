@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use mms_math::Scalar as _;
 
-use super::chart::{Chart, Run};
+use super::chart::{Chart, ChartProgram};
 use super::forms::compact;
 use mms_program::Program;
 use mms_program::interpret::Number;
@@ -18,12 +18,12 @@ use mms_symbolic::sorted::SortedMap;
 /// Formulas in the variables of a chart, with their derivatives by these.
 #[derive(Clone, Debug)]
 pub struct Formulas {
-    program: Program<Output>,
+    program: Program<EnclosureOutput>,
     variables: usize,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Output {
+enum EnclosureOutput {
     Values,
     /// The derivatives by the variable of this index.
     Slopes(usize),
@@ -32,14 +32,14 @@ enum Output {
 impl Formulas {
     /// Differentiates formulas that were pulled back to a chart.
     pub fn new(graph: &mut Graph, chart: &Chart, formulas: &[Expr]) -> Self {
-        let mut outputs = SortedMap::from([(Output::Values, compact(graph, formulas))]);
+        let mut outputs = SortedMap::from([(EnclosureOutput::Values, compact(graph, formulas))]);
         for (index, symbol) in chart.variables().iter().enumerate() {
             // Once the budget is spent no value of the program is used, so any formulas will do as slopes.
             let slopes = match graph.work().is_over() {
                 true => formulas.to_vec(),
                 false => differentiate(graph, formulas, *symbol),
             };
-            outputs.insert(Output::Slopes(index), compact(graph, &slopes));
+            outputs.insert(EnclosureOutput::Slopes(index), compact(graph, &slopes));
         }
         Formulas { program: schedule_plainly(graph, &outputs), variables: chart.variables().len() }
     }
@@ -51,8 +51,8 @@ impl Formulas {
 
     /// Prepares an evaluation in one scalar type.
     pub fn run<'a, T: Number>(&'a self, chart: &'a Chart) -> Evaluation<'a, T> {
-        let mut outputs = vec![Output::Values];
-        outputs.extend((0..self.variables).map(Output::Slopes));
+        let mut outputs = vec![EnclosureOutput::Values];
+        outputs.extend((0..self.variables).map(EnclosureOutput::Slopes));
         Evaluation { run: chart.run(&self.program), outputs }
     }
 }
@@ -88,8 +88,8 @@ pub fn key(place: &[Interval]) -> Vec<u64> {
 
 /// Formulas that are being evaluated.
 pub struct Evaluation<'a, T: Number> {
-    run: Run<'a, T, Output>,
-    outputs: Vec<Output>,
+    run: ChartProgram<'a, T, EnclosureOutput>,
+    outputs: Vec<EnclosureOutput>,
 }
 
 impl<T: Number> Evaluation<'_, T> {

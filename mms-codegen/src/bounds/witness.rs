@@ -29,7 +29,7 @@ impl Witness {
     pub fn at_precise(chart: &Chart, fractions: &[Precise]) -> (Witness, ChartPoint<Precise>) {
         // The place where a search ended is reported even if its budget is spent.
         let place = || chart.points().point(&chart.place(fractions));
-        let point = chart.work().aside(STEPS, place);
+        let point = chart.work().with_own_budget(STEPS, place);
         let value = |index: usize| (index, point.parameters[index].to_f64());
         let witness = Witness {
             coordinates: point.coordinates.iter().map(Precise::to_f64).collect(),

@@ -22,7 +22,7 @@ use crate::bounds::enclosure::{Evaluation, Formulas};
 use crate::bounds::search::{Cell, Measure, largest};
 use crate::bounds::witness::Witness;
 use crate::compile::Compiled;
-use mms_mechanics::invariant::{Kind, VOLUME};
+use mms_mechanics::invariant::{Invariants, VOLUME};
 use mms_mechanics::kinematics::Strain;
 use mms_mechanics::model::{Part, Written};
 use mms_mechanics::tensor::Tensor;
@@ -42,7 +42,7 @@ const OF_A_CELL: usize = 4;
 
 /// An operation that is not proved to stay within one analytic branch over the domain.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Exit {
+pub struct BranchViolation {
     /// The place of the operation.
     pub span: Span,
     /// The condition that does not hold.
@@ -64,13 +64,13 @@ struct Condition {
 /// Returns the operations that are not proved to stay within one branch, and the number of cells that the proofs used: at
 /// most `cells` for each, and at most `operations` evaluated instructions in total. `motion` is the motion of a field with
 /// positive J; if it is `None`, W is not examined.
-pub fn exits(
+pub fn violations(
     graph: &mut Graph,
     chart: &Chart,
     compiled: &Compiled,
     motion: Option<&ChartMotion>,
     [cells, operations]: [usize; 2],
-) -> (Vec<Exit>, usize) {
+) -> (Vec<BranchViolation>, usize) {
     let Written { field, energy } = &compiled.model.written;
     let mut parts = vec![(Steps::new(graph, chart, field, &compiled.model.displacement), None)];
     if let Some(motion) = motion {
@@ -86,7 +86,7 @@ pub fn exits(
             let (exit, count) = judge(chart, &formulas, condition.must, limit);
             let exit = exit.and_then(|(witness, is_certain)| {
                 let span = steps.blame(graph, &condition.limit)?;
-                Some(Exit { span, must: condition.must, witness, is_certain })
+                Some(BranchViolation { span, must: condition.must, witness, is_certain })
             });
             found.extend(exit);
             taken += count;
@@ -98,7 +98,8 @@ pub fn exits(
         // report one unproved operation.
         let witness = Witness::at(chart, &Cell::whole(chart.variables().len()).centre()).0;
         let formula = field.formulas.iter().map(|(_, span)| *span).next();
-        let unknown = |span| Exit { span, must: Must::NotVanish, witness, is_certain: false };
+        let unknown =
+            |span| BranchViolation { span, must: Must::NotVanish, witness, is_certain: false };
         found = formula.map(unknown).into_iter().collect();
     }
     (found, taken)
@@ -196,7 +197,7 @@ fn invariants(
     motion: &ChartMotion,
 ) -> SortedMap<Symbol, Expr> {
     let kind = match &compiled.model.kind {
-        Kind::Fibrous(direction) => Kind::Fibrous(chart.pull_back(graph, direction)),
+        Invariants::Fibrous(direction) => Invariants::Fibrous(chart.pull_back(graph, direction)),
         other => other.clone(),
     };
     let gradient = motion.oriented.as_ref().unwrap_or(&motion.gradient);
@@ -214,7 +215,7 @@ fn judge(
 ) -> (Option<(Witness, bool)>, usize) {
     let mut bounds = formulas.run::<Interval>(chart);
     let mut hunter =
-        Hunter { chart, must, doubles: formulas.run(chart), precise: formulas.run(chart) };
+        PointSearch { chart, must, doubles: formulas.run(chart), precise: formulas.run(chart) };
     let mut exit = None;
     let enough = |bound: f64, attained: f64| bound <= 0.0 || attained > 0.0;
     let found = largest(chart.variables().len(), chart.limit(limit), enough, |cell| {
@@ -250,7 +251,7 @@ fn holds(must: Must, values: &[Interval]) -> bool {
 }
 
 /// Searches for a point that violates the condition.
-struct Hunter<'a> {
+struct PointSearch<'a> {
     chart: &'a Chart,
     must: Must,
     doubles: Evaluation<'a, f64>,
@@ -291,7 +292,7 @@ fn sign(value: &Precise) -> Option<Ordering> {
     }
 }
 
-impl Hunter<'_> {
+impl PointSearch<'_> {
     /// Searches the middle and the corners of a cell, and the segment between two of them on different sides of the limit:
     /// on it the operand, which is continuous, is 0 somewhere.
     fn hunt(&mut self, cell: &Cell) -> Option<Witness> {

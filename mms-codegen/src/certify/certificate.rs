@@ -1,8 +1,8 @@
 //! All proofs about a field, and the cheaper search for contradictions.
 
-use super::branches::{self, Exit};
-use super::claims::{self, Finding};
-use super::computed::{self, AsComputed};
+use super::branches::{self, BranchViolation};
+use super::claims::{self, ClaimVerdict};
+use super::computed::{self, ComputedProof};
 use super::ellipticity::{self, Ellipticity};
 use super::finite::{self, Finite};
 use super::message;
@@ -64,17 +64,17 @@ const QUICK_POINTS: usize = 4;
 #[derive(Clone, Debug)]
 pub struct Certificate {
     /// Every claim of the file, in its order.
-    pub claims: Vec<(BoundarySpec, Finding)>,
+    pub claims: Vec<(BoundarySpec, ClaimVerdict)>,
     /// Whether J > 0.
     pub jacobian: Sign,
     /// Whether the density and the moduli at F = I are positive; only those that vary.
     pub solid: Vec<(Part, Sign)>,
     /// The operations that are not proved to stay within one analytic branch.
-    pub exits: Vec<Exit>,
+    pub branch_violations: Vec<BranchViolation>,
     /// Whether all quantities exist.
     pub finite: Finite,
     /// Whether they can be computed in `f64`, and in `f32`.
-    pub computed: [AsComputed; 2],
+    pub computed: [ComputedProof; 2],
     /// The largest stretch, strain rate and wave speed; only if J > 0.
     pub rates: Option<Rates>,
     /// Whether waves run in every direction; not examined unless J > 0.
@@ -129,7 +129,7 @@ pub fn certify(compiled: &Compiled) -> Certificate {
         reach::bound(graph, &chart, compiled)
     });
     let (exits, cells) = budget.part(&mut graph, BRANCHES, "branches of functions", |graph| {
-        branches::exits(graph, &chart, compiled, positive, [CELLS, OPERATIONS_OF_BRANCHES])
+        branches::violations(graph, &chart, compiled, positive, [CELLS, OPERATIONS_OF_BRANCHES])
     });
     boxes += cells;
     let limit = if rates.is_some() { CELLS } else { 0 };
@@ -142,7 +142,7 @@ pub fn certify(compiled: &Compiled) -> Certificate {
             let known = (motion.jacobian, bounds);
             computed::bound(graph, &chart, compiled, known, OPERATIONS_AS_COMPUTED)
         }
-        _ => [AsComputed::NOT_ASKED; 2],
+        _ => [ComputedProof::NOT_APPLICABLE; 2],
     });
     boxes += computed[0].cells;
     let mut claims = Vec::new();
@@ -159,7 +159,7 @@ pub fn certify(compiled: &Compiled) -> Certificate {
         claims,
         jacobian,
         solid,
-        exits,
+        branch_violations: exits,
         finite,
         computed,
         rates,
@@ -197,7 +197,7 @@ impl Budget {
         prove: impl FnOnce(&mut Graph) -> R,
     ) -> R {
         self.begin(graph, steps);
-        let found = graph.unless_full(prove);
+        let found = graph.restoring_if_full(prove);
         self.end(graph, part);
         found
     }
@@ -278,8 +278,11 @@ pub(super) fn chart_of(
 impl Certificate {
     /// The refuted and the unproved parts, each at its place in the file.
     pub fn objections(&self, compiled: &Compiled) -> Vec<Diagnostic> {
-        let mut objections: Vec<_> =
-            self.exits.iter().map(|exit| message::leaves_branch(compiled, exit)).collect();
+        let mut objections: Vec<_> = self
+            .branch_violations
+            .iter()
+            .map(|exit| message::leaves_branch(compiled, exit))
+            .collect();
         match &self.finite {
             Finite::Proved => {}
             // If J is not proved to be positive, a quotient by J cannot be proved finite.
@@ -290,7 +293,10 @@ impl Certificate {
             }
             // If a quantity has no value where a function reaches the end of its domain, only the function is reported.
             Finite::Undefined(_, witness)
-                if self.exits.iter().any(|it| it.is_certain && it.witness == *witness) => {}
+                if self
+                    .branch_violations
+                    .iter()
+                    .any(|it| it.is_certain && it.witness == *witness) => {}
             Finite::Undefined(quantity, witness) => {
                 objections.push(message::undefined(compiled, *quantity, witness));
             }
@@ -318,11 +324,11 @@ impl Certificate {
         objections.extend(message::not_computed(compiled, "f64", &double.finding));
         for (claim, finding) in &self.claims {
             match finding {
-                Finding::Proved | Finding::Enclosed(_) => {}
-                Finding::Refuted(witness, value) => {
+                ClaimVerdict::Proved | ClaimVerdict::Enclosed(_) => {}
+                ClaimVerdict::Refuted(witness, value) => {
                     objections.push(message::refuted(compiled, claim, witness, *value));
                 }
-                Finding::Unproved(interval) => {
+                ClaimVerdict::Unproved(interval) => {
                     objections.push(message::unproved(claim, *interval));
                 }
             }
@@ -352,7 +358,7 @@ pub fn contradictions(compiled: &Compiled) -> Vec<Diagnostic> {
         found.push(message::inverted(compiled, &witness, value));
     }
     let (exits, _) =
-        branches::exits(&mut graph, &chart, compiled, None, [QUICK_CELLS, QUICK_OPERATIONS]);
+        branches::violations(&mut graph, &chart, compiled, None, [QUICK_CELLS, QUICK_OPERATIONS]);
     // At the end of the domain of a function, its values or derivatives are usually not finite, and their evaluation reports
     // that. Report a jump of values here, since it leaves all derivatives finite.
     let certain: Vec<_> = exits.iter().filter(|exit| exit.is_certain).collect();
@@ -362,7 +368,7 @@ pub fn contradictions(compiled: &Compiled) -> Vec<Diagnostic> {
     let failure = computed::failure(compiled, &chart, Precision::F64);
     found.extend(failure.and_then(|it| message::not_computed(compiled, "f64", &it)));
     for claim in &compiled.field.boundary {
-        if let Some(Finding::Refuted(witness, value)) =
+        if let Some(ClaimVerdict::Refuted(witness, value)) =
             claims::refute(&mut graph, compiled, claim, QUICK_POINTS)
         {
             found.push(message::refuted(compiled, claim, &witness, value));

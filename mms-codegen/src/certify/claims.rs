@@ -41,7 +41,7 @@ const STEPS_OF_SCALE: u64 = 20_000_000;
 
 /// The verdict about a claim.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Finding {
+pub enum ClaimVerdict {
     /// The claim holds identically.
     Proved,
     /// The value that should be 0 lies between these numbers, which are near enough.
@@ -52,14 +52,14 @@ pub enum Finding {
     Unproved([f64; 2]),
 }
 
-impl Finding {
+impl ClaimVerdict {
     /// The word for the verdict in reports.
     pub fn status(&self) -> &'static str {
         match self {
-            Finding::Proved => "proved",
-            Finding::Enclosed(_) => "enclosed",
-            Finding::Refuted(..) => "refuted",
-            Finding::Unproved(_) => "unproved",
+            ClaimVerdict::Proved => "proved",
+            ClaimVerdict::Enclosed(_) => "enclosed",
+            ClaimVerdict::Refuted(..) => "refuted",
+            ClaimVerdict::Unproved(_) => "unproved",
         }
     }
 }
@@ -110,7 +110,7 @@ pub fn judge(
     compiled: &Compiled,
     claim: &BoundarySpec,
     limit: usize,
-) -> (Finding, usize) {
+) -> (ClaimVerdict, usize) {
     let on_face = OnFace::new(graph, compiled, claim.face.value);
     let subject = on_face.subject(graph, claim.claim.value);
     let must_vanish = !matches!(claim.claim.value, Claim::Prescribed | Claim::Traction);
@@ -118,7 +118,7 @@ pub fn judge(
         && (on_face.vanishes(graph, &subject.components)
             || on_face.vanishes_openly(graph, claim.claim.value))
     {
-        return (Finding::Proved, 0);
+        return (ClaimVerdict::Proved, 0);
     }
     let formulas = on_face.formulas(graph, &subject.components);
     let scales = subject.scales(compiled);
@@ -134,7 +134,7 @@ pub fn refute(
     compiled: &Compiled,
     claim: &BoundarySpec,
     points: usize,
-) -> Option<Finding> {
+) -> Option<ClaimVerdict> {
     if matches!(claim.claim.value, Claim::Prescribed | Claim::Traction) {
         return None;
     }
@@ -156,7 +156,7 @@ impl<'a> OnFace<'a> {
     /// Rewrites formulas in X in terms of the coordinates that vary on the face, for any parameters.
     fn restrict(&self, graph: &mut Graph, formulas: &[Expr]) -> Vec<Expr> {
         let body = &self.compiled.model.domain.body;
-        let places = face::places(graph, body, Some(self.face));
+        let places = face::positions(graph, body, Some(self.face));
         let general = straightened(graph, formulas, &places);
         match self.is_open {
             true => general,
@@ -283,7 +283,7 @@ impl<'a> OnFace<'a> {
         Formulas::new(graph, &self.chart, &declared)
     }
 
-    fn refute(&self, formulas: &Formulas, scales: &[f64], points: usize) -> Option<Finding> {
+    fn refute(&self, formulas: &Formulas, scales: &[f64], points: usize) -> Option<ClaimVerdict> {
         let mut values = formulas.run::<Precise>(&self.chart);
         let dimension = self.chart.variables().len();
         (1..=points).find_map(|index| {
@@ -297,7 +297,7 @@ impl<'a> OnFace<'a> {
                     .then(|| value.to_f64())
             };
             let value = found.iter().zip(scales).find_map(beyond_doubt)?;
-            Some(Finding::Refuted(Witness::at_precise(&self.chart, &fractions).0, value))
+            Some(ClaimVerdict::Refuted(Witness::at_precise(&self.chart, &fractions).0, value))
         })
     }
 
@@ -308,7 +308,7 @@ impl<'a> OnFace<'a> {
         scales: &[f64],
         must_vanish: bool,
         limit: usize,
-    ) -> (Finding, usize) {
+    ) -> (ClaimVerdict, usize) {
         let mut bounds = formulas.run::<Interval>(&self.chart);
         let dimension = self.chart.variables().len();
         let farthest = |value: &Interval| match value.is_defined() {
@@ -336,9 +336,9 @@ impl<'a> OnFace<'a> {
         let scale = scales.iter().copied().fold(0.0, f64::max);
         let interval = [-found.bound * scale, found.bound * scale];
         let finding = match enough(found.bound, 0.0) {
-            true if must_vanish => Finding::Enclosed(interval),
-            true => Finding::Proved,
-            false => Finding::Unproved(interval),
+            true if must_vanish => ClaimVerdict::Enclosed(interval),
+            true => ClaimVerdict::Proved,
+            false => ClaimVerdict::Unproved(interval),
         };
         (finding, found.cells)
     }

@@ -30,12 +30,12 @@ pub struct Comparison {
     /// The number of points where both were evaluated: [`POINTS`], or fewer if that takes too long.
     pub points: usize,
     /// The result.
-    pub finding: Finding,
+    pub finding: ClosedFormVerdict,
 }
 
 /// The result of comparing one closed form.
 #[derive(Clone, Debug)]
-pub enum Finding {
+pub enum ClosedFormVerdict {
     /// Both have the same value at every point.
     Agrees,
     /// One evaluation would take too long, so that nothing was compared.
@@ -95,7 +95,7 @@ fn finding(
     check: usize,
     quantity: Quantity,
     work: &Work,
-) -> (usize, Finding) {
+) -> (usize, ClosedFormVerdict) {
     let outputs = [Output::Quantity(quantity), Output::Expected(check)];
     // Preparing the interpreter reads every instruction.
     work.spend(program.instrs.len() as u64);
@@ -121,14 +121,14 @@ fn finding(
         if let Some(component) = derived.iter().zip(&expected).position(lacking) {
             undefined.push(found(component));
         } else if let Some(component) = differing_component(&derived, &expected) {
-            return (compared, Finding::Differs(found(component)));
+            return (compared, ClosedFormVerdict::Differs(found(component)));
         }
     }
     let points = undefined.len();
     let finding = match undefined.into_iter().next() {
-        Some(first) => Finding::Undefined { points, first },
-        None if compared == 0 => Finding::Unmeasured,
-        None => Finding::Agrees,
+        Some(first) => ClosedFormVerdict::Undefined { points, first },
+        None if compared == 0 => ClosedFormVerdict::Unmeasured,
+        None => ClosedFormVerdict::Agrees,
     };
     (compared, finding)
 }

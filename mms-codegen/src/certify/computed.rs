@@ -19,7 +19,7 @@
 use mms_math::Scalar as _;
 
 use super::finite::{blame, corners};
-use crate::bounds::chart::{Chart, ChartPoint, Run};
+use crate::bounds::chart::{Chart, ChartPoint, ChartProgram};
 use crate::bounds::enclosure::Formulas;
 use crate::bounds::search::{Cell, Measure, largest};
 use crate::bounds::witness::{Witness, digits};
@@ -47,7 +47,7 @@ const STEPS_OF_DIGITS: u64 = 2_000;
 
 /// The verdict about a program in one precision.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Finding {
+pub enum ComputedVerdict {
     /// Every quantity is computed as a finite number everywhere, and J as a positive one.
     Proved,
     /// A quantity that is not computed at this place; the text names the operation that has no value.
@@ -55,14 +55,14 @@ pub enum Finding {
     /// Nothing is refuted, but near here this quantity is not proved to be computed.
     Unproved(Quantity, Witness),
     /// The program was not examined: some quantity has no value, or J > 0 is not proved.
-    NotAsked,
+    NotApplicable,
 }
 
 /// A program in one precision.
 #[derive(Clone, Debug, PartialEq)]
-pub struct AsComputed {
+pub struct ComputedProof {
     /// Whether the program computes its quantities.
-    pub finding: Finding,
+    pub finding: ComputedVerdict,
     /// The least number of right digits after the point of the angles of sines, cosines and tangents, and the place where it is
     /// least; `None` if there are no such angles, or if the number is not known.
     pub angles: Option<(f64, Witness)>,
@@ -70,10 +70,10 @@ pub struct AsComputed {
     pub cells: usize,
 }
 
-impl AsComputed {
+impl ComputedProof {
     /// The result if the program was not examined.
-    pub const NOT_ASKED: AsComputed =
-        AsComputed { finding: Finding::NotAsked, angles: None, cells: 0 };
+    pub const NOT_APPLICABLE: ComputedProof =
+        ComputedProof { finding: ComputedVerdict::NotApplicable, angles: None, cells: 0 };
 }
 
 /// Bounds the program of a field in `f64` and in `f32`, each with at most `operations` operations. `jacobian` is J with its
@@ -84,7 +84,7 @@ pub fn bound(
     compiled: &Compiled,
     jacobian: (Expr, [f64; 2]),
     operations: usize,
-) -> [AsComputed; 2] {
+) -> [ComputedProof; 2] {
     let quantities = QuantityProgram::new(compiled);
     let operands = Operands::new(graph, chart, &quantities, jacobian);
     [
@@ -95,7 +95,11 @@ pub fn bound(
 
 /// Finds a quantity that a precision does not compute at a corner or in the middle of a chart, though it has a value there.
 /// `None` proves nothing.
-pub fn failure(compiled: &Compiled, chart: &Chart, precision: Precision) -> Option<Finding> {
+pub fn failure(
+    compiled: &Compiled,
+    chart: &Chart,
+    precision: Precision,
+) -> Option<ComputedVerdict> {
     let quantities = QuantityProgram::new(compiled);
     let whole = Cell::whole(chart.variables().len());
     let mut at = chart.points::<f64>();
@@ -113,7 +117,9 @@ pub fn failure(compiled: &Compiled, chart: &Chart, precision: Precision) -> Opti
         };
         chart.work().spend(STEPS_OF_DIGITS * operations);
         let (witness, exact) = Witness::at(chart, fractions);
-        quantities.has_value(&exact, quantity).then_some(Finding::Fails(quantity, witness, cause))
+        quantities
+            .has_value(&exact, quantity)
+            .then_some(ComputedVerdict::Fails(quantity, witness, cause))
     };
     corners(&whole).iter().chain([&whole.centre()]).find_map(&mut fails)
 }
@@ -178,7 +184,7 @@ impl<'a> QuantityProgram<'a> {
         chart: &Chart,
         operands: &Operands,
         operations: usize,
-    ) -> AsComputed {
+    ) -> ComputedProof {
         let dimension = chart.variables().len();
         let mut judge = Judge { quantities: self, chart, operands, spots: chart.points() };
         let mut at = chart.points::<f64>();
@@ -187,7 +193,7 @@ impl<'a> QuantityProgram<'a> {
             let spot = at.point(&chart.place(fractions));
             // If the budget is spent, every value is missing.
             let (quantity, cause) = self.failure::<T>(&spot).filter(|_| !chart.work().is_over())?;
-            Some(Finding::Fails(quantity, Witness::at(chart, fractions).0, cause))
+            Some(ComputedVerdict::Fails(quantity, Witness::at(chart, fractions).0, cause))
         };
         let mut candidates = corners(&Cell::whole(dimension));
         // One evaluation for the cell itself, one for each operand, and one for each cell that is thinner by one variable.
@@ -211,18 +217,18 @@ impl<'a> QuantityProgram<'a> {
         });
         let unproved = |judge: &mut Judge<'_>| {
             let quantity = judge.judge::<F>(&found.worst).0.unwrap_or(Quantity::Displacement);
-            Finding::Unproved(quantity, Witness::at(chart, &found.worst.centre()).0)
+            ComputedVerdict::Unproved(quantity, Witness::at(chart, &found.worst.centre()).0)
         };
         let finding = match failure {
             Some(failure) => failure,
-            None if found.bound <= 0.0 => Finding::Proved,
+            None if found.bound <= 0.0 => ComputedVerdict::Proved,
             None => unproved(&mut judge),
         };
-        let is_told = finding == Finding::Proved && !self.angles.is_empty();
+        let is_told = finding == ComputedVerdict::Proved && !self.angles.is_empty();
         let angles = worst.filter(|_| is_told).map(|(error, cell)| {
             (-error.max(F::UNIT).log10(), Witness::at(chart, &farthest_corner(chart, &cell)).0)
         });
-        AsComputed { finding, angles, cells: found.cells }
+        ComputedProof { finding, angles, cells: found.cells }
     }
 
     /// Bounds all values at a chart point, for any normal, with `known` bounds of some exact values.
@@ -289,7 +295,7 @@ impl<'a> QuantityProgram<'a> {
     }
 
     /// The first quantity that may fail to be computed, in the order of derivation.
-    fn gap<F: Format>(&self, values: &Values<Computed<F>>) -> Option<Quantity> {
+    fn first_unproved<F: Format>(&self, values: &Values<Computed<F>>) -> Option<Quantity> {
         self.first_quantity(|quantity, index| {
             let value = values.narrow[index];
             value.is_finite() && (quantity != Quantity::Jacobian || value.reach().lower() > 0.0)
@@ -513,7 +519,7 @@ struct Judge<'a> {
     quantities: &'a QuantityProgram<'a>,
     chart: &'a Chart,
     operands: &'a Operands,
-    spots: Run<'a, Interval, crate::bounds::chart::ChartOutput>,
+    spots: ChartProgram<'a, Interval, crate::bounds::chart::ChartOutput>,
 }
 
 impl Judge<'_> {
@@ -524,12 +530,12 @@ impl Judge<'_> {
         let mut values = self.quantities.bounded(&spot, |index| self.operands.of(index, &[]));
         self.chart.work().spend(self.quantities.steps(&values));
         if let Some(formulas) = &self.operands.formulas
-            && self.quantities.gap(&values).is_some()
+            && self.quantities.first_unproved(&values).is_some()
         {
             let bounds = formulas.run::<Interval>(self.chart).enclose(&place).values;
             values = self.quantities.bounded(&spot, |index| self.operands.of(index, &bounds));
             self.chart.work().spend(self.quantities.steps(&values));
         }
-        (self.quantities.gap(&values), self.quantities.angle_error(&values))
+        (self.quantities.first_unproved(&values), self.quantities.angle_error(&values))
     }
 }

@@ -91,7 +91,7 @@ pub fn bound(
         }
     }
     // The culprit is named even if the budget is spent.
-    let quantity = chart.work().aside(STEPS, || gap(&found.worst));
+    let quantity = chart.work().with_own_budget(STEPS, || gap(&found.worst));
     let witness = Witness::at(chart, &found.worst.centre()).0;
     (Finite::Unproved(quantity.unwrap_or(Quantity::Displacement), witness), found.cells)
 }

@@ -1,6 +1,6 @@
 //! Messages about a field that is not what it claims to be.
 
-use super::branches::Exit;
+use super::branches::BranchViolation;
 use super::computed;
 use super::limits::Must;
 use super::sign::Sign;
@@ -108,7 +108,7 @@ pub fn stressed_at_rest(compiled: &Compiled, stress: &[f64], witness: &Witness) 
 }
 
 /// An operation leaves its branch, or is not proved to stay within it.
-pub fn leaves_branch(compiled: &Compiled, exit: &Exit) -> Diagnostic {
+pub fn leaves_branch(compiled: &Compiled, exit: &BranchViolation) -> Diagnostic {
     let written = quoted(compiled.sources.slice(exit.span));
     let place = place(compiled, &exit.witness);
     let (why, help) = match exit.must {
@@ -159,15 +159,17 @@ pub fn not_finite(compiled: &Compiled, quantity: Quantity, witness: &Witness) ->
 pub fn not_computed(
     compiled: &Compiled,
     precision: &str,
-    finding: &computed::Finding,
+    finding: &computed::ComputedVerdict,
 ) -> Option<Diagnostic> {
     let (message, label) = match finding {
-        computed::Finding::Proved | computed::Finding::NotAsked => return None,
-        computed::Finding::Fails(quantity, witness, cause) => (
+        computed::ComputedVerdict::Proved | computed::ComputedVerdict::NotApplicable => {
+            return None;
+        }
+        computed::ComputedVerdict::Fails(quantity, witness, cause) => (
             format!("{} is finite everywhere, but not as {precision} computes it", quantity.name()),
             format!("{cause} at {}", place(compiled, witness)),
         ),
-        computed::Finding::Unproved(quantity, witness) => (
+        computed::ComputedVerdict::Unproved(quantity, witness) => (
             format!("{} is not proved to be finite as {precision} computes it", quantity.name()),
             format!("near {}", place(compiled, witness)),
         ),

@@ -2,7 +2,7 @@
 
 use mms_math::Scalar as _;
 
-use crate::bounds::chart::{Chart, Run};
+use crate::bounds::chart::{Chart, ChartProgram};
 use mms_mechanics::invariant::SUPPLIED_VOLUME;
 use mms_program::Program;
 use mms_program::dual::Dual;
@@ -15,8 +15,8 @@ use mms_symbolic::sorted::SortedMap;
 
 /// dP/dF by dual numbers, and its derivatives by dual numbers over these.
 pub struct Tangent<'a> {
-    first: Run<'a, MultiDual<Interval>, ()>,
-    second: Run<'a, MultiDual<Dual<Interval>>, ()>,
+    first: ChartProgram<'a, MultiDual<Interval>, ()>,
+    second: ChartProgram<'a, MultiDual<Dual<Interval>>, ()>,
 }
 
 /// A mean-value form of dP/dF: its value in the middle plus, for each entry of H that varies, the slope times the distance from

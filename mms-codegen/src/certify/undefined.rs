@@ -11,7 +11,7 @@ use mms_program::interpret::{Number as _, binary, unary};
 use mms_program::precise::Precise;
 use mms_spec::source::Span;
 use mms_spec::syntax;
-use mms_spec::syntax::{Ast, Kind, Operator};
+use mms_spec::syntax::{Ast, NodeKind, Operator};
 use mms_spec::{FieldSpec, Formula, RigidSpec};
 use mms_symbolic::expr::Function;
 use mms_symbolic::sorted::SortedMap;
@@ -80,10 +80,10 @@ pub fn points(compiled: &Compiled) -> usize {
     POINTS.min((STEPS / of_one.max(1)) as usize)
 }
 
-fn steps(kind: &Kind) -> u64 {
+fn steps(kind: &NodeKind) -> u64 {
     match kind {
-        Kind::Call { .. } => STEPS_OF_FUNCTION,
-        Kind::Binary(Operator::Power, ..) => STEPS_OF_POWER,
+        NodeKind::Call { .. } => STEPS_OF_FUNCTION,
+        NodeKind::Binary(Operator::Power, ..) => STEPS_OF_POWER,
         _ => STEPS_OF_OPERATION,
     }
 }
@@ -120,18 +120,18 @@ fn evaluate(ast: &Ast, names: &SortedMap<&str, Traced>) -> Traced {
     for node in &ast.nodes {
         let of = |operand: &usize| values[*operand].0.clone();
         let (value, operands) = match &node.kind {
-            Kind::Number(number) => (Precise::from_rational(number), Vec::new()),
-            Kind::Name(name) => {
+            NodeKind::Number(number) => (Precise::from_rational(number), Vec::new()),
+            NodeKind::Name(name) => {
                 // Every name was resolved before this evaluation.
                 let known = names.get(name.as_str()).cloned();
                 values.push(known.unwrap_or((Precise::from_f64(f64::NAN), Some(node.span))));
                 continue;
             }
-            Kind::Negate(operand) => (-of(operand), vec![*operand]),
-            Kind::Binary(operator, left, right) => {
+            NodeKind::Negate(operand) => (-of(operand), vec![*operand]),
+            NodeKind::Binary(operator, left, right) => {
                 (operate(*operator, of(left), of(right)), vec![*left, *right])
             }
-            Kind::Call { name, arguments } => (
+            NodeKind::Call { name, arguments } => (
                 call(&name.value, &arguments.iter().map(of).collect::<Vec<_>>()),
                 arguments.clone(),
             ),

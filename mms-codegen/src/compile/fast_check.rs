@@ -10,7 +10,7 @@ use super::Compiled;
 use crate::declared::elasticity::{curvatures, stiffness};
 use mms_mechanics::axisymmetric::poles;
 use mms_mechanics::extent::Region;
-use mms_mechanics::invariant::Kind;
+use mms_mechanics::invariant::Invariants;
 use mms_mechanics::model::Model;
 use mms_program::Program;
 use mms_program::interpret::{Interpreter, Number as _, Point};
@@ -28,7 +28,7 @@ const POLE: f64 = std::f64::consts::PI * (1.0 + 4.0 * f64::EPSILON);
 
 /// An expression that the test evaluates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Output {
+enum CheckOutput {
     Ranges,
     Body,
     Time,
@@ -42,7 +42,7 @@ enum Output {
 #[derive(Debug)]
 pub struct FastParameterCheck {
     dimension: usize,
-    program: Program<Output>,
+    program: Program<CheckOutput>,
     /// The parameters that have ranges.
     ranged: Vec<usize>,
     body: Region<()>,
@@ -89,7 +89,7 @@ impl FastParameterCheck {
         let (model, field) = (&compiled.model, &compiled.field);
         let mut graph = compiled.graph.clone();
         graph.make_room();
-        let is_simple = model.rigid.is_none() && !matches!(model.kind, Kind::Fibrous(_));
+        let is_simple = model.rigid.is_none() && !matches!(model.kind, Invariants::Fibrous(_));
         let outputs = is_simple.then(|| outputs(&mut graph, model))?;
         let mut exprs = outputs.values().flatten();
         // Expressions that change in time are judged when they are read.
@@ -142,8 +142,8 @@ impl FastParameterCheck {
 
     fn allows(&self, parameters: &[Interval]) -> bool {
         let mut interpreter = Interpreter::new(&self.program, parameters);
-        let early =
-            [Output::Ranges, Output::Body, Output::Time].map(|output| interpreter.output(output));
+        let early = [CheckOutput::Ranges, CheckOutput::Body, CheckOutput::Time]
+            .map(|output| interpreter.output(output));
         let [ranges, body, time] = &early;
         let ranged = self.ranged.iter().map(|index| parameters[*index]);
         let within = |(value, range): (Interval, &[Interval])| {
@@ -154,19 +154,19 @@ impl FastParameterCheck {
             return false;
         }
         let plan = interpreter.plan(&[
-            Output::Density,
-            Output::Poisson,
-            Output::Defined,
-            Output::Stiffness,
+            CheckOutput::Density,
+            CheckOutput::Poisson,
+            CheckOutput::Defined,
+            CheckOutput::Stiffness,
         ]);
         interpreter.set_point(&plan, Point::at(&corners));
         let of_numbers = |value: f64| Interval::new(value, value);
         let is_ratio = |it: &Interval| below(of_numbers(-1.0), *it) && below(*it, of_numbers(0.5));
         let is_defined = |it: &Interval| it.is_defined() && it.farthest() < f64::INFINITY;
-        interpreter.output(Output::Density).iter().all(|it| below(of_numbers(0.0), *it))
-            && interpreter.output(Output::Poisson).iter().all(is_ratio)
-            && interpreter.output(Output::Defined).iter().all(is_defined)
-            && self.is_stiff(&interpreter.output(Output::Stiffness))
+        interpreter.output(CheckOutput::Density).iter().all(|it| below(of_numbers(0.0), *it))
+            && interpreter.output(CheckOutput::Poisson).iter().all(is_ratio)
+            && interpreter.output(CheckOutput::Defined).iter().all(is_defined)
+            && self.is_stiff(&interpreter.output(CheckOutput::Stiffness))
     }
 
     /// Coordinates that enclose the body; `None` if it may be empty.
@@ -231,18 +231,18 @@ impl FastParameterCheck {
 }
 
 /// The expressions that the test evaluates.
-fn outputs(graph: &mut Graph, model: &Model) -> SortedMap<Output, Vec<Expr>> {
+fn outputs(graph: &mut Graph, model: &Model) -> SortedMap<CheckOutput, Vec<Expr>> {
     let ranges = model.parameters.iter().filter_map(|parameter| parameter.range).flatten();
     let body = model.domain.body.values();
     let (_, slopes) = curvatures(graph, model);
     SortedMap::from([
-        (Output::Ranges, ranges.collect()),
-        (Output::Body, body),
-        (Output::Time, model.domain.time.to_vec()),
-        (Output::Density, vec![model.density]),
-        (Output::Poisson, model.poisson.into_iter().collect()),
-        (Output::Defined, [&model.arguments[..], &slopes].concat()),
-        (Output::Stiffness, stiffness(graph, model)),
+        (CheckOutput::Ranges, ranges.collect()),
+        (CheckOutput::Body, body),
+        (CheckOutput::Time, model.domain.time.to_vec()),
+        (CheckOutput::Density, vec![model.density]),
+        (CheckOutput::Poisson, model.poisson.into_iter().collect()),
+        (CheckOutput::Defined, [&model.arguments[..], &slopes].concat()),
+        (CheckOutput::Stiffness, stiffness(graph, model)),
     ])
 }
 

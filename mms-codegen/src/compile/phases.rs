@@ -26,7 +26,7 @@ use mms_spec::own::Own;
 use mms_spec::source::{SourceId, Sources, Span};
 use mms_spec::suggest::advice;
 use mms_spec::syntax;
-use mms_spec::syntax::Kind;
+use mms_spec::syntax::NodeKind;
 use mms_spec::units;
 use mms_spec::{FieldSpec, Formula, MaterialSpec, moduli, own_quantities, settle_checks};
 use mms_symbolic::expr::{DEFAULT_MAX_NODES, Expr, Graph};
@@ -298,8 +298,8 @@ fn unrepresentable(field: &FieldSpec, program: &Program) -> Option<Diagnostic> {
 
 /// The place of a number in a formula that is outside the range of double precision.
 fn huge_number(formula: &Formula) -> Option<Span> {
-    let is_huge = |kind: &Kind| match kind {
-        Kind::Number(number) => number.to_f64().value().is_infinite(),
+    let is_huge = |kind: &NodeKind| match kind {
+        NodeKind::Number(number) => number.to_f64().value().is_infinite(),
         _ => false,
     };
     let ast = syntax::parse(formula, &mut Vec::new())?;

@@ -130,11 +130,11 @@ fn a_value_that_leaves_a_quantity_undefined_is_refused() {
 
 #[test]
 fn quantities_have_names_and_aliases() {
-    use mms_codegen::selection::quantity;
-    assert_eq!(quantity(&[], "b"), quantity(&[], "body_force"));
-    let text = quantity(&[], "body_farce").expect_err("no quantity");
+    use mms_codegen::selection::compiled_quantity;
+    assert_eq!(compiled_quantity(&[], "b"), compiled_quantity(&[], "body_force"));
+    let text = compiled_quantity(&[], "body_farce").expect_err("no quantity");
     assert_eq!(text, "unknown quantity `body_farce`; did you mean `body_force`?");
-    let text = quantity(&[], "temperature").expect_err("no quantity");
+    let text = compiled_quantity(&[], "temperature").expect_err("no quantity");
     assert!(text.starts_with("unknown quantity `temperature`; the quantities are displacement, "));
 }
 

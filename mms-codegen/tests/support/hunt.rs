@@ -6,7 +6,7 @@ use mms_codegen::bounds::enclosure::Formulas;
 use mms_codegen::bounds::witness::Witness;
 use mms_codegen::certify::branches;
 use mms_codegen::certify::computed;
-use mms_codegen::certify::computed::Finding;
+use mms_codegen::certify::computed::ComputedVerdict;
 use mms_codegen::certify::finite;
 use mms_codegen::certify::finite::Finite;
 use mms_codegen::certify::motion::ChartMotion;
@@ -154,10 +154,10 @@ impl Promise {
             return none;
         }
         let budget = [CELLS, OPERATIONS];
-        let (exits, _) = branches::exits(graph, chart, compiled, Some(&motion), budget);
+        let (exits, _) = branches::violations(graph, chart, compiled, Some(&motion), budget);
         let known = (motion.jacobian, bounds);
         let computed = computed::bound(graph, chart, compiled, known, OPERATIONS);
-        let [double, single] = computed.each_ref().map(|it| it.finding == Finding::Proved);
+        let [double, single] = computed.each_ref().map(|it| it.finding == ComputedVerdict::Proved);
         let is_fine = computed[0].angles.as_ref().is_none_or(|(digits, _)| *digits > 9.0);
         Promise { double, single, smooth: double && exits.is_empty() && is_fine }
     }

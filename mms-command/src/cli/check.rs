@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use clap::Args;
-use mms_check::{Asked, meaning};
+use mms_check::{CheckOptions, meaning};
 use mms_codegen::Compiled;
 use mms_codegen::compile::Failure;
 use mms_codegen::selection::{Entry, Freeze, Selection};
@@ -123,7 +123,7 @@ impl Check {
         path: &Foreign,
         compiled: &Arc<Compiled>,
     ) -> anyhow::Result<(Outcome, CheckedFile)> {
-        let asked = Asked { solve: self.solve, is_verbose: self.verbose };
+        let asked = CheckOptions { solve: self.solve, is_verbose: self.verbose };
         let mut report = mms_check::check(path, compiled, asked);
         let has_body = !compiled.field.domain.body.is_nothing();
         let next = (!report.passes && has_body && !self.explain).then(|| {

@@ -15,7 +15,7 @@ use anyhow::{Context as _, bail};
 use clap::{Args, Parser};
 use mms_analysis::period::period;
 use mms_codegen::selection::Selection;
-use mms_convergence::{Expected, Fit, TOLERANCE, Verdict, fit, is_near};
+use mms_convergence::{ExpectedOrder, Fit, TOLERANCE, Verdict, fit, is_near};
 use mms_exact::{Input, Open, units, validate_division};
 use mms_judge::{Follow as Search, Unfollowed};
 use mms_lab::trial::Progress as Follow;
@@ -535,12 +535,12 @@ impl Study {
     }
 
     /// The order to judge against, and how far from it is still as expected.
-    fn expectation(&self, input: &Input, method: &MethodOptions) -> Expected {
+    fn expectation(&self, input: &Input, method: &MethodOptions) -> ExpectedOrder {
         let entry = input.compiled.field.studies.iter().find(|entry| {
             let (shape, integrator) = (method.shape.name(), method.integrator.name());
             entry.is_of(shape, integrator, method.formulation.name())
         });
         let order = self.expected_order.or(entry.map(|entry| entry.order)).unwrap_or(2.0);
-        Expected::new(order, entry.and_then(|entry| entry.tolerance).unwrap_or(TOLERANCE))
+        ExpectedOrder::new(order, entry.and_then(|entry| entry.tolerance).unwrap_or(TOLERANCE))
     }
 }

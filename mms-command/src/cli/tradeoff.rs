@@ -93,7 +93,7 @@ impl Tradeoff {
         }
         let Some(field) = &self.field else { bail!("no field") };
         let input = self.input(field)?;
-        input.hold(&self.set)?;
+        input.validate_settings(&self.set)?;
         let folder = super::output_folder(self.output.as_deref(), input.name.raw())?;
         self.figure.hold()?;
         let mut bench = Bench { trials: &mut trials, field, set: &self.set, motion: &self.motion };

@@ -51,6 +51,6 @@ fn half_of_the_amplitude(input: &Input, set: &[String]) -> anyhow::Result<Option
     let index = amplitude.index();
     let values = compiled.parameters::<f64>(&input.settings(set)?);
     let half = format!("{}={}", compiled.model.parameters[index].name, values[index] / 2.0);
-    let is_allowed = input.hold(std::slice::from_ref(&half)).is_ok();
+    let is_allowed = input.validate_settings(std::slice::from_ref(&half)).is_ok();
     Ok(is_allowed.then_some(half))
 }

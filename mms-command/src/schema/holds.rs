@@ -1,9 +1,9 @@
 //! The schema of the value of a key.
 
 use mms_codegen::materials::MATERIALS;
-use mms_spec::format::{self, Holds, Key, Length, quantities};
+use mms_spec::format::{self, Key, Length, ValueType, quantities};
 use mms_spec::language::FUNCTIONS;
-use mms_spec::names::{AXISYMMETRIC, COORDINATES, INVARIANTS, Keeper, MAX_NAME};
+use mms_spec::names::{AXISYMMETRIC, COORDINATES, INVARIANTS, MAX_NAME, ReservingFile};
 use mms_spec::quantity::Quantity;
 use mms_spec::{Claim, Face, MAX_COUNT, MAX_VERTICES};
 use serde_json::{Map, Value, json};
@@ -33,7 +33,7 @@ pub fn count(components: usize) -> Value {
 fn properties(keys: &[Key]) -> Value {
     let described = |key: &Key| {
         let mut schema = json!({ "description": key.doc });
-        extend(&mut schema, value(&key.holds));
+        extend(&mut schema, value(&key.value_type));
         (key.name.to_string(), schema)
     };
     Value::Object(keys.iter().map(described).collect())
@@ -43,54 +43,54 @@ fn required(keys: &[Key]) -> Vec<&'static str> {
     keys.iter().filter(|key| key.required).map(|key| key.name).collect()
 }
 
-fn value(holds: &Holds) -> Value {
+fn value(holds: &ValueType) -> Value {
     match holds {
-        Holds::Text => json!({ "type": "string" }),
-        Holds::Flag => json!({ "type": "boolean" }),
-        Holds::Dimension => json!({ "enum": [1, 2, 3] }),
-        Holds::Count => whole_number(),
-        Holds::Positive => json!({ "type": "number", "exclusiveMinimum": 0 }),
-        Holds::Levels => json!({
+        ValueType::Text => json!({ "type": "string" }),
+        ValueType::Flag => json!({ "type": "boolean" }),
+        ValueType::Dimension => json!({ "enum": [1, 2, 3] }),
+        ValueType::Count => whole_number(),
+        ValueType::Positive => json!({ "type": "number", "exclusiveMinimum": 0 }),
+        ValueType::Levels => json!({
             "type": "array",
             "items": whole_number(),
             "minItems": 2,
             "uniqueItems": true,
         }),
-        Holds::Quantity => quantity(),
-        Holds::Word(words) => json!({ "enum": words() }),
-        Holds::Model => model(),
-        Holds::Formula => formula(),
-        Holds::Formulas(length) => formulas(*length),
-        Holds::Table(keys) => table(keys),
-        Holds::Tables(keys) => json!({ "type": "array", "items": table(keys) }),
-        Holds::Names(keeper, holds) => json!({
+        ValueType::Quantity => quantity(),
+        ValueType::Word(words) => json!({ "enum": words() }),
+        ValueType::Model => model(),
+        ValueType::Formula => formula(),
+        ValueType::Formulas(length) => formulas(*length),
+        ValueType::Table(keys) => table(keys),
+        ValueType::Tables(keys) => json!({ "type": "array", "items": table(keys) }),
+        ValueType::Names(keeper, holds) => json!({
             "type": "object",
             "propertyNames": name(*keeper),
             "additionalProperties": value(holds),
         }),
-        Holds::Material(keys) => json!({
+        ValueType::Material(keys) => json!({
             "type": "object",
             "properties": properties(keys),
             "required": required(keys),
-            "propertyNames": name(Keeper::Material),
+            "propertyNames": name(ReservingFile::Material),
             "additionalProperties": formula(),
         }),
-        Holds::Vertices => json!({
+        ValueType::Vertices => json!({
             "type": "array",
             "items": formulas(Length::Exactly(2)),
             "minItems": 3,
             "maxItems": MAX_VERTICES,
         }),
-        Holds::Name => {
+        ValueType::Name => {
             json!({ "type": "string", "pattern": "^[a-z][a-z0-9_]*$", "maxLength": MAX_NAME })
         }
-        Holds::Words => json!({
+        ValueType::Words => json!({
             "type": "array",
-            "items": value(&Holds::Name),
+            "items": value(&ValueType::Name),
             "uniqueItems": true,
         }),
-        Holds::Faces => faces(),
-        Holds::Rotation(keys) => {
+        ValueType::Faces => faces(),
+        ValueType::Rotation(keys) => {
             let mut schema = table(keys);
             schema["type"] = json!(["string", "number", "object"]);
             schema
@@ -135,11 +135,11 @@ fn model() -> Value {
 }
 
 /// The names that a file may define.
-fn name(keeper: Keeper) -> Value {
+fn name(keeper: ReservingFile) -> Value {
     let others = match keeper {
-        Keeper::Field => &[],
-        Keeper::Axisymmetric => AXISYMMETRIC,
-        Keeper::Material => INVARIANTS,
+        ReservingFile::Field => &[],
+        ReservingFile::Axisymmetric => AXISYMMETRIC,
+        ReservingFile::Material => INVARIANTS,
     };
     let given = COORDINATES.iter().chain(others).map(|(name, _)| *name);
     let reserved: Vec<_> = given.chain(FUNCTIONS.iter().copied()).collect();

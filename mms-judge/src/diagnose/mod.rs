@@ -210,7 +210,7 @@ fn meanings(
 fn unlike(meaning: &Meaning, snapshot: &Snapshot, exact: &Exact) -> Option<String> {
     let is_tensor = matches!(meaning.role.form(), Form::Tensor | Form::Symmetric);
     let rows = if is_tensor { exact.space().rows() } else { exact.dimension };
-    meaning.unlike(snapshot, rows, None)
+    meaning.mismatch(snapshot, rows, None)
 }
 
 /// The quantities that diagnosis looks for, with arrays of any shape.

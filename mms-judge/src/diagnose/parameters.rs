@@ -31,7 +31,7 @@ impl<'a> Factors<'a> {
         let compiled = self.compiled.get_or_init(|| self.compile()).clone()?;
         let name = factor_of(self.names().get(parameter)?);
         let at = compiled.model.parameters.iter().position(|it| it.name == *name)?;
-        let mut set = self.exact.set().clone();
+        let mut set = self.exact.set_parameters().clone();
         set.insert(at, constant(&format!("{factor:?}")).ok()?);
         mms_interpreted::scene(compiled, &set).ok()
     }

@@ -64,7 +64,7 @@ pub fn exclusions(
     time_step: Option<f64>,
     follow: &dyn Follow,
 ) -> anyhow::Result<Option<Exclusions>> {
-    if exact.turns() {
+    if exact.has_swirl() {
         return Ok(None);
     }
     let times = (!exact.input().is_static()).then_some(times);

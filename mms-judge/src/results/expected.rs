@@ -1,7 +1,7 @@
 //! The expected order of each quantity, by its norm and its sampling.
 
 use anyhow::bail;
-use mms_convergence::Expected;
+use mms_convergence::ExpectedOrder;
 use mms_spec::foreign::shown;
 use mms_spec::own::Part;
 use mms_spec::quantity::Quantity;
@@ -44,7 +44,7 @@ pub fn expected(
     (orders, lowered): (&Orders, &Lowered),
     (quantity, sampling): (Quantity, Sampling),
     norm: &str,
-) -> [Expected; 2] {
+) -> [ExpectedOrder; 2] {
     let (name, symbol) = (quantity.name(), quantity.symbol());
     let [space, time] = orders.of(name, symbol, norm);
     let is_gradient = !is_of_motion(quantity) && sampling.knows_cells();
@@ -55,7 +55,7 @@ pub fn expected(
         None => space.order,
     };
     let settles = least == space.order || is_gradient;
-    [Expected { order: least.min(space.order), settles, ..space }, time]
+    [ExpectedOrder { order: least.min(space.order), settles, ..space }, time]
 }
 
 /// Renames orders to the names in results: PK1 is `first_piola_kirchhoff`, and H1 is `h1`.

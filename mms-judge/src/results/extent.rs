@@ -93,7 +93,7 @@ pub fn motion<'a>(
     (exact, is_part): (&Exact, bool),
 ) -> anyhow::Result<Motion<'a>> {
     let outside = Filled { exact, cells: &snapshot.cells, is_part };
-    let mut back = exact.back(time, snapshot.rows());
+    let mut back = exact.inverse(time, snapshot.rows());
     resolve(snapshot, meanings, exact.dimension, &outside, Some(&mut back)).map_err(placed)
 }
 

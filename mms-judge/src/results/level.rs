@@ -406,7 +406,7 @@ impl Reading<'_> {
             Form::Scalar | Form::Voigt => (exact.dimension, false),
         };
         let is_asked = in_space || self.wanted.iter().any(|it| it.name() == meaning.role.name());
-        let why = meaning.unlike(snapshot, dimension, Some(points));
+        let why = meaning.mismatch(snapshot, dimension, Some(points));
         why.filter(|_| !is_asked)
     }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use anyhow::{bail, ensure};
 use mms_results::names::Names;
-use mms_results::pairing::{self, By, Pairs};
+use mms_results::pairing::{self, PairedBy, Pairs};
 use mms_results::{Array, Snapshot};
 
 use super::{Results, placed};
@@ -93,9 +93,11 @@ impl Same {
         let (points, by) = pairing::points(one, other, names).map_err(placed)?;
         let cells = pairing::cells(one, other, &points).map_err(placed)?;
         self.paired = match by {
-            By::Number(name) => format!("by the number in `{name}`"),
-            By::Place => "by X".into(),
-            By::Order => "in the order of the files, without numbers or X to pair them".into(),
+            PairedBy::Number(name) => format!("by the number in `{name}`"),
+            PairedBy::Place => "by X".into(),
+            PairedBy::Order => {
+                "in the order of the files, without numbers or X to pair them".into()
+            }
         };
         for (key, array) in arrays(one) {
             let (Some(&second), is_of_points) = (of_other.get(&key), key.1) else { continue };

@@ -7,7 +7,7 @@ use mms_results::mesh::Mesh;
 use mms_results::motion::Motion;
 use mms_results::names::{Meaning, Role, Values, Why};
 use mms_results::norm::{largest, lengths, range};
-use mms_results::over_cells::{Asked, Carried};
+use mms_results::over_cells::{Carried, SolutionPart};
 use mms_results::{Mistake, Snapshot, Stored};
 use mms_spec::quantity::Quantity;
 
@@ -181,9 +181,9 @@ impl SnapshotErrors<'_> {
         let gradient =
             (quantity == Quantity::Displacement).then_some(Quantity::DisplacementGradient);
         let exact = &mut *self.exact;
-        let mut asked = |asked: Asked, places: &[f64]| {
-            let found = match gradient.filter(|_| asked == Asked::Gradients) {
-                Some(gradient) => exact.own(gradient, time, places),
+        let mut asked = |asked: SolutionPart, places: &[f64]| {
+            let found = match gradient.filter(|_| asked == SolutionPart::Gradients) {
+                Some(gradient) => exact.values_in_dimension(gradient, time, places),
                 None => exact.values(quantity, time, places),
             };
             found.map_err(|error| Mistake::new(format!("{error:#}")))

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use anyhow::Context as _;
-use mms_analysis::accuracy::{Input, Place, inputs};
+use mms_analysis::accuracy::{Input, SampleRegion, inputs};
 use mms_codegen::Compiled;
 use mms_program::precision::Precision;
 use mms_spec::quantity::Quantity;
@@ -120,7 +120,7 @@ fn contender(call: &Call<'_>) -> String {
 /// A time in the middle of the window, and as many points as a batch has: a line for each, and an empty line.
 fn points(compiled: &Compiled) -> String {
     let parameters = compiled.parameters::<f64>(&Default::default());
-    let all = inputs(compiled, &parameters, Place::Body, POINTS);
+    let all = inputs(compiled, &parameters, SampleRegion::Body, POINTS);
     let time = all.iter().map(|input| input.time).sum::<f64>() / all.len().max(1) as f64;
     let mut text = format!("{time:?}\n");
     for Input { coordinates, normal, .. } in all {

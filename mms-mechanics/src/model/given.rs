@@ -6,7 +6,7 @@ use crate::tensor::{Tensor, dot};
 use mms_spec::diagnostic::Diagnostic;
 use mms_spec::own::{Own, Part};
 use mms_spec::source::Span;
-use mms_spec::syntax::{self, Kind};
+use mms_spec::syntax::{self, NodeKind};
 use mms_spec::{BalanceLaw, BalanceSpec, FieldSpec, Formula, MaterialSpec, Space, own_quantities};
 use mms_symbolic::expr::{Expr, Symbol};
 use mms_symbolic::pass::differentiate::differentiate;
@@ -226,7 +226,7 @@ impl Reader<'_> {
     ) {
         let Some(ast) = syntax::parse(formula, &mut Vec::new()) else { return };
         for node in &ast.nodes {
-            let Kind::Name(name) = &node.kind else { continue };
+            let NodeKind::Name(name) = &node.kind else { continue };
             if self.scope.has(name) {
                 continue;
             }

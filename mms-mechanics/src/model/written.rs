@@ -6,7 +6,7 @@
 use super::Reader;
 use crate::resolve::Step;
 use mms_spec::source::Span;
-use mms_spec::syntax::{Ast, Kind};
+use mms_spec::syntax::{Ast, NodeKind};
 use mms_symbolic::expr::Expr;
 use mms_symbolic::sorted::SortedSet;
 
@@ -41,8 +41,8 @@ pub(super) struct Read {
 
 impl Read {
     pub fn new(ast: &Ast, value: Expr, span: Span, steps: Vec<Step>) -> Self {
-        let name = |kind: &Kind| match kind {
-            Kind::Name(name) => Some(name.clone()),
+        let name = |kind: &NodeKind| match kind {
+            NodeKind::Name(name) => Some(name.clone()),
             _ => None,
         };
         let uses = ast.nodes.iter().filter_map(|node| name(&node.kind)).collect();

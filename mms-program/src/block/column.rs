@@ -6,7 +6,7 @@ use std::ops::Range;
 use mms_math::Double;
 use mms_math::batch::Lift;
 
-use super::plan::Plan;
+use super::plan::BlockPlan;
 use super::{BlockMode, steps};
 use crate::interpret::Number;
 
@@ -56,7 +56,7 @@ pub trait Blockwise: Number<Wide: Copy + Send + Sync> + Lift<Self> + Send + Sync
 
     /// Runs the steps of a plan over the first `pieces` of a block.
     fn run(
-        plan: &Plan,
+        plan: &BlockPlan,
         mode: BlockMode,
         scalars: &[Self],
         columns: &mut [Self::Column],
@@ -66,7 +66,7 @@ pub trait Blockwise: Number<Wide: Copy + Send + Sync> + Lift<Self> + Send + Sync
     /// Runs some parts of a plan over the first `pieces` of a block. If they are the last parts, returns whether all results
     /// are numbers.
     fn run_parts(
-        of: (&Plan, Range<usize>),
+        of: (&BlockPlan, Range<usize>),
         mode: BlockMode,
         scalars: &[Self],
         columns: &mut [Self::Column],
@@ -86,7 +86,7 @@ macro_rules! blockwise {
             }
 
             fn run(
-                plan: &Plan,
+                plan: &BlockPlan,
                 mode: BlockMode,
                 scalars: &[Self],
                 columns: &mut [Self::Column],
@@ -99,7 +99,7 @@ macro_rules! blockwise {
             }
 
             fn run_parts(
-                (plan, parts): (&Plan, Range<usize>),
+                (plan, parts): (&BlockPlan, Range<usize>),
                 mode: BlockMode,
                 scalars: &[Self],
                 columns: &mut [Self::Column],
@@ -129,7 +129,7 @@ impl Blockwise for Double {
     }
 
     fn run(
-        plan: &Plan,
+        plan: &BlockPlan,
         _: BlockMode,
         scalars: &[Self],
         columns: &mut [Self::Column],
@@ -140,7 +140,7 @@ impl Blockwise for Double {
 
     // There are no quick functions in twice the digits.
     fn run_parts(
-        _: (&Plan, Range<usize>),
+        _: (&BlockPlan, Range<usize>),
         _: BlockMode,
         _: &[Self],
         _: &mut [Self::Column],

@@ -1,6 +1,6 @@
 //! A block interpreter: runs programs over many points; every operation is a loop over a block of points (structure of arrays).
 //!
-//! A [`Plan`] lists the steps, and is made once for some outputs; all threads, parameters and precisions share it. [`Prepared`]
+//! A [`BlockPlan`] lists the steps, and is made once for some outputs; all threads, parameters and precisions share it. [`Prepared`]
 //! has the values of the stage Parameter for one set of parameters. A [`Scratch`] has the values of the stage Time for one
 //! time, and the registers; one thread uses it at a time. So a new parameter runs the stage Parameter, a new time runs the
 //! stage Time, and nothing is allocated after the first use of a `Scratch`.
@@ -21,11 +21,11 @@ use mms_math::batch::Float;
 use mms_math::dispatch::{Instructions, Work};
 
 pub use column::{Blockwise, Column, Numbers};
-pub use plan::Plan;
+pub use plan::BlockPlan;
 
 use crate::interpret::apply;
 use mms_symbolic::expr::Symbol;
-use plan::{Operand, Scalar, Source};
+use plan::{Operand, Scalar, ScalarSource};
 
 /// The instructions that compute blocks, and whether a product is rounded before it is added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,10 +65,10 @@ impl BlockMode {
 /// A plan with the numbers of one set of parameters. Threads share it, each with a [`Scratch`] of its own.
 #[derive(Clone, Debug)]
 pub struct Prepared<T: Blockwise> {
-    plan: Arc<Plan>,
+    plan: Arc<BlockPlan>,
     mode: BlockMode,
     /// The values of the stage Parameter.
-    early: Vec<T::Wide>,
+    parameter_values: Vec<T::Wide>,
     /// The numbers that are the same at all points; numbers of the stage Time are unset here.
     scalars: Vec<T>,
     /// A stamp that differs for every instance, and for every set of parameters.
@@ -82,14 +82,20 @@ pub struct Scratch<T: Blockwise> {
     stamp: u64,
     time: Option<T>,
     /// The values of the stages Parameter and Time.
-    once: Vec<T::Wide>,
+    uniform: Vec<T::Wide>,
     scalars: Vec<T>,
     columns: Vec<T::Column>,
 }
 
 impl<T: Blockwise> Default for Scratch<T> {
     fn default() -> Self {
-        Scratch { stamp: 0, time: None, once: Vec::new(), scalars: Vec::new(), columns: Vec::new() }
+        Scratch {
+            stamp: 0,
+            time: None,
+            uniform: Vec::new(),
+            scalars: Vec::new(),
+            columns: Vec::new(),
+        }
     }
 }
 
@@ -102,7 +108,7 @@ pub struct Inputs<'a, T: Blockwise> {
 
 /// The results at the points of a block.
 pub struct Outputs<'a, T: Blockwise> {
-    plan: &'a Plan,
+    plan: &'a BlockPlan,
     scalars: &'a [T],
     columns: &'a [T::Column],
     count: usize,
@@ -119,15 +125,15 @@ pub enum Component<'a, T> {
 
 impl<T: Blockwise> Prepared<T> {
     /// Runs the stage Parameter. `parameters` are in the order of the field file.
-    pub fn new(plan: Arc<Plan>, mode: BlockMode, parameters: &[T]) -> Self {
+    pub fn new(plan: Arc<BlockPlan>, mode: BlockMode, parameters: &[T]) -> Self {
         let constant = |scalar: &Scalar| match &scalar.source {
-            Source::Constant(number) => signed(scalar, T::from_rational(number)),
-            Source::Pi => signed(scalar, T::pi()),
-            Source::Once(_) => T::from_f64(0.0),
+            ScalarSource::Constant(number) => signed(scalar, T::from_rational(number)),
+            ScalarSource::Pi => signed(scalar, T::pi()),
+            ScalarSource::Once(_) => T::from_f64(0.0),
         };
         let scalars = plan.scalars.iter().map(constant).collect();
-        let early = Vec::with_capacity(plan.early);
-        let mut prepared = Prepared { plan, mode, early, scalars, stamp: 0 };
+        let early = Vec::with_capacity(plan.parameter_count);
+        let mut prepared = Prepared { plan, mode, parameter_values: early, scalars, stamp: 0 };
         prepared.set(parameters);
         prepared
     }
@@ -138,39 +144,44 @@ impl<T: Blockwise> Prepared<T> {
         static STAMPS: AtomicU64 = AtomicU64::new(1);
         self.stamp = STAMPS.fetch_add(1, Ordering::Relaxed);
         let plan = &self.plan;
-        self.early.clear();
+        self.parameter_values.clear();
         let input = |symbol| match symbol {
             Symbol::Parameter(index) => parameters[index].widen(),
             _ => unreachable!("the stage Parameter reads parameters only"),
         };
-        for instr in &plan.once[..plan.early] {
-            let value =
-                apply(&instr.op, &self.early, T::wide_from_rational, T::wide_square, &input);
-            self.early.push(value);
+        for instr in &plan.uniform[..plan.parameter_count] {
+            let value = apply(
+                &instr.op,
+                &self.parameter_values,
+                T::wide_from_rational,
+                T::wide_square,
+                &input,
+            );
+            self.parameter_values.push(value);
         }
         for (number, scalar) in self.scalars.iter_mut().zip(&plan.scalars) {
-            if let Source::Once(index) = scalar.source
-                && index < plan.early
+            if let ScalarSource::Once(index) = scalar.source
+                && index < plan.parameter_count
             {
-                *number = signed(scalar, T::narrow(self.early[index]));
+                *number = signed(scalar, T::narrow(self.parameter_values[index]));
             }
         }
     }
 
     /// The plan.
-    pub fn plan(&self) -> &Plan {
+    pub fn plan(&self) -> &BlockPlan {
         &self.plan
     }
 
-    /// Runs the plan at `count` points. For each block, `bring` writes the inputs and `take` reads the results; their first
-    /// argument is the index of the block's first point.
+    /// Runs the plan at `count` points. For each block, calls `write_inputs` before the steps, and `read_outputs` after them;
+    /// their first argument is the index of the block's first point.
     pub fn run(
         &self,
         scratch: &mut Scratch<T>,
         time: T,
         count: usize,
-        bring: &mut dyn FnMut(usize, &mut Inputs<'_, T>),
-        take: &mut dyn FnMut(usize, &Outputs<'_, T>),
+        write_inputs: &mut dyn FnMut(usize, &mut Inputs<'_, T>),
+        read_outputs: &mut dyn FnMut(usize, &Outputs<'_, T>),
     ) {
         let plan = &*self.plan;
         scratch.enter(self, time);
@@ -179,7 +190,7 @@ impl<T: Blockwise> Prepared<T> {
             let count = (count - start).min(T::BLOCK);
             let pieces = count.div_ceil(T::TOGETHER);
             let inputs = &mut columns[..plan.inputs.len()];
-            bring(start, &mut Inputs { symbols: &plan.inputs, columns: inputs, count });
+            write_inputs(start, &mut Inputs { symbols: &plan.inputs, columns: inputs, count });
             // Copies of the first point fill the last piece: a program may be undefined at other numbers.
             for column in inputs {
                 let numbers = &mut column.numbers_mut()[..pieces * T::TOGETHER];
@@ -187,7 +198,7 @@ impl<T: Blockwise> Prepared<T> {
                 numbers[count..].fill(first);
             }
             T::run(plan, self.mode, scalars, columns, pieces);
-            take(start, &Outputs { plan, scalars, columns, count });
+            read_outputs(start, &Outputs { plan, scalars, columns, count });
         }
     }
 }
@@ -205,7 +216,7 @@ impl<T: Blockwise> Prepared<T> {
     ) {
         let count = points.len() / dimension;
         let components = values.len().checked_div(count).unwrap_or(0);
-        let mut bring = |start: usize, inputs: &mut Inputs<'_, T>| {
+        let mut write_inputs = |start: usize, inputs: &mut Inputs<'_, T>| {
             for (symbol, column) in inputs.columns() {
                 let (numbers, axis) = match symbol {
                     Symbol::Coordinate(axis) => (points, axis),
@@ -222,7 +233,7 @@ impl<T: Blockwise> Prepared<T> {
                 }
             }
         };
-        let mut take = |start: usize, outputs: &Outputs<'_, T>| {
+        let mut read_outputs = |start: usize, outputs: &Outputs<'_, T>| {
             let own = &mut values[start * components..][..outputs.count() * components];
             for (index, component) in outputs.components(0).enumerate() {
                 match components {
@@ -231,7 +242,7 @@ impl<T: Blockwise> Prepared<T> {
                 }
             }
         };
-        self.run(scratch, time, count, &mut bring, &mut take);
+        self.run(scratch, time, count, &mut write_inputs, &mut read_outputs);
     }
 }
 
@@ -319,7 +330,7 @@ impl<T: Blockwise> Scratch<T> {
         if self.stamp != prepared.stamp {
             self.stamp = prepared.stamp;
             self.time = None;
-            self.once.clone_from(&prepared.early);
+            self.uniform.clone_from(&prepared.parameter_values);
             self.scalars.clone_from(&prepared.scalars);
             if self.columns.len() < plan.registers {
                 self.columns.resize_with(plan.registers, || T::Column::of(T::from_f64(0.0)));
@@ -331,21 +342,22 @@ impl<T: Blockwise> Scratch<T> {
         }
     }
 
-    fn pass_time(&mut self, plan: &Plan, time: T) {
-        self.once.truncate(plan.early);
+    fn pass_time(&mut self, plan: &BlockPlan, time: T) {
+        self.uniform.truncate(plan.parameter_count);
         let input = |symbol| match symbol {
             Symbol::Time => time.widen(),
             _ => unreachable!("the stage Time reads the time only"),
         };
-        for instr in &plan.once[plan.early..] {
-            let value = apply(&instr.op, &self.once, T::wide_from_rational, T::wide_square, &input);
-            self.once.push(value);
+        for instr in &plan.uniform[plan.parameter_count..] {
+            let value =
+                apply(&instr.op, &self.uniform, T::wide_from_rational, T::wide_square, &input);
+            self.uniform.push(value);
         }
         for (number, scalar) in self.scalars.iter_mut().zip(&plan.scalars) {
-            if let Source::Once(index) = scalar.source
-                && index >= plan.early
+            if let ScalarSource::Once(index) = scalar.source
+                && index >= plan.parameter_count
             {
-                *number = signed(scalar, T::narrow(self.once[index]));
+                *number = signed(scalar, T::narrow(self.uniform[index]));
             }
         }
     }

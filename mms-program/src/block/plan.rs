@@ -20,7 +20,7 @@ use mms_symbolic::expr::{Function, Rational, Small, Symbol};
 
 /// The operation of a step on the columns and scalars at its operands a, b and c.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Kind {
+pub(super) enum StepKind {
     /// Fills a column with the scalar a.
     Fill,
     /// a + b
@@ -67,46 +67,48 @@ pub(super) enum Kind {
     Binary(Function),
 }
 
-impl Kind {
+impl StepKind {
     /// The number of operands, of a, b and c in this order, and which of them are columns.
     fn columns(self) -> &'static [bool] {
         match self {
-            Kind::Fill => &[false],
-            Kind::Negate | Kind::Root | Kind::Unary(..) => &[true],
-            Kind::Add | Kind::Subtract | Kind::Multiply | Kind::Divide | Kind::Binary(_) => {
-                &[true, true]
-            }
-            Kind::AddScalar
-            | Kind::SubtractFrom
-            | Kind::Scale
-            | Kind::DivideBy
-            | Kind::DivideInto => &[true, false],
-            Kind::MultiplyAdd | Kind::MultiplySubtract | Kind::SubtractProduct => {
+            StepKind::Fill => &[false],
+            StepKind::Negate | StepKind::Root | StepKind::Unary(..) => &[true],
+            StepKind::Add
+            | StepKind::Subtract
+            | StepKind::Multiply
+            | StepKind::Divide
+            | StepKind::Binary(_) => &[true, true],
+            StepKind::AddScalar
+            | StepKind::SubtractFrom
+            | StepKind::Scale
+            | StepKind::DivideBy
+            | StepKind::DivideInto => &[true, false],
+            StepKind::MultiplyAdd | StepKind::MultiplySubtract | StepKind::SubtractProduct => {
                 &[true, true, true]
             }
-            Kind::MultiplyAddScalar | Kind::SubtractProductFrom => &[true, true, false],
-            Kind::ScaleAdd | Kind::ScaleSubtract => &[true, false, true],
-            Kind::ScaleAddScalar => &[true, false, false],
+            StepKind::MultiplyAddScalar | StepKind::SubtractProductFrom => &[true, true, false],
+            StepKind::ScaleAdd | StepKind::ScaleSubtract => &[true, false, true],
+            StepKind::ScaleAddScalar => &[true, false, false],
         }
     }
 
     /// Whether the step is a function made of many operations: it is compiled separately, since its coefficients would occupy
     /// the registers of all other steps.
     fn is_function(self) -> bool {
-        matches!(self, Kind::Unary(..) | Kind::Binary(_))
+        matches!(self, StepKind::Unary(..) | StepKind::Binary(_))
     }
 }
 
 /// One operation on all points of a block. Operands are registers or scalars, as the kind says; the result is a register that
 /// no operand uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Step {
-    pub kind: Kind,
+pub(super) struct BlockStep {
+    pub kind: StepKind,
     pub result: u32,
     pub operands: [u32; 3],
 }
 
-impl Step {
+impl BlockStep {
     /// The operands that are columns.
     fn columns(&self) -> impl Iterator<Item = u32> + use<> {
         let operands = self.operands.into_iter().zip(self.kind.columns());
@@ -116,17 +118,17 @@ impl Step {
 
 /// The origin of a number that is the same at all points.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Source {
+pub(super) enum ScalarSource {
     Constant(Rational),
     Pi,
-    /// The result of this instruction of [`Plan::once`].
+    /// The result of this instruction of [`BlockPlan::uniform`].
     Once(usize),
 }
 
 /// A number that is the same at all points.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Scalar {
-    pub source: Source,
+    pub source: ScalarSource,
     /// Whether the negative number is used.
     pub negated: bool,
 }
@@ -141,16 +143,16 @@ pub(super) enum Operand {
 /// The steps that compute some outputs of a program at many points. A plan is valid for all parameters, times and precisions,
 /// and any number of threads share it.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct BlockPlan {
     /// The instructions of the stages Parameter and Time.
-    pub(super) once: Vec<Instr>,
-    /// The number of instructions in `once` that belong to the stage Parameter.
-    pub(super) early: usize,
+    pub(super) uniform: Vec<Instr>,
+    /// The number of instructions in `uniform` that belong to the stage Parameter.
+    pub(super) parameter_count: usize,
     pub(super) scalars: Vec<Scalar>,
     /// The inputs of a point, each in the register of its position.
     pub(super) inputs: Vec<Symbol>,
     /// The steps of the stages Point and PointTime.
-    pub(super) steps: Vec<Step>,
+    pub(super) steps: Vec<BlockStep>,
     /// The parts of the steps: functions one by one, and the steps between them.
     pub(super) parts: Vec<Range<usize>>,
     /// The number of parts that need X alone.
@@ -164,7 +166,7 @@ pub struct Plan {
     pub(super) outputs: Vec<Range<usize>>,
 }
 
-impl Plan {
+impl BlockPlan {
     /// Plans some outputs, each with the bits that compiled code gives when it computes that output alone. `in_two_loops`
     /// states for which outputs compiled code may have two loops: one for values of X, one for values that also need t. An
     /// output that the program does not have gets no component.
@@ -196,47 +198,47 @@ impl Plan {
 
     /// Whether the values depend on the time.
     pub fn needs_time(&self) -> bool {
-        self.early < self.once.len()
+        self.parameter_count < self.uniform.len()
     }
 }
 
 /// A plan under construction: every step has a column of its own.
 struct Lowering<'a, K> {
     program: &'a Program<K>,
-    once: Vec<Instr>,
-    /// The instructions of `once`, by their positions in the program.
+    uniform: Vec<Instr>,
+    /// The instructions of `uniform`, by their positions in the program.
     renamed: Vec<Option<usize>>,
     scalars: Vec<Scalar>,
     scalar_places: HashMap<Scalar, u32>,
     /// The columns of inputs of points.
     inputs: Vec<(Symbol, u32)>,
-    steps: Vec<Step>,
+    steps: Vec<BlockStep>,
     /// The columns of existing steps, by kind and operands.
-    known: HashMap<(Kind, [u32; 3]), u32>,
+    known: HashMap<(StepKind, [u32; 3]), u32>,
     columns: u32,
     /// The number of steps before the first one that needs the time.
-    border: Option<usize>,
+    first_timed_step: Option<usize>,
     /// The operand of each value at points that has been lowered for the present output.
-    found: Vec<Option<Operand>>,
+    lowered: Vec<Option<Operand>>,
 }
 
 impl<'a, K: Key> Lowering<'a, K> {
     fn new(program: &'a Program<K>, outputs: &[K]) -> Self {
         let needed = program.needed(outputs);
         let mut renamed = vec![None; program.instrs.len()];
-        let mut once: Vec<Instr> = Vec::new();
+        let mut uniform: Vec<Instr> = Vec::new();
         for index in (0..program.start(Stage::Point)).filter(|index| needed[*index]) {
             let Instr { op, stage } = &program.instrs[index];
             let rename = |value: Value| {
                 Value(renamed[value.index()].expect("operands come first and are needed") as u32)
             };
             let op = op.map(rename);
-            renamed[index] = Some(once.len());
-            once.push(Instr { op, stage: *stage });
+            renamed[index] = Some(uniform.len());
+            uniform.push(Instr { op, stage: *stage });
         }
         Lowering {
             program,
-            once,
+            uniform,
             renamed,
             scalars: Vec::new(),
             scalar_places: HashMap::new(),
@@ -244,8 +246,8 @@ impl<'a, K: Key> Lowering<'a, K> {
             steps: Vec::new(),
             known: HashMap::new(),
             columns: 0,
-            border: None,
-            found: vec![None; program.instrs.len()],
+            first_timed_step: None,
+            lowered: vec![None; program.instrs.len()],
         }
     }
 
@@ -253,7 +255,7 @@ impl<'a, K: Key> Lowering<'a, K> {
     fn output(&mut self, output: K, in_two_loops: bool) -> Vec<Operand> {
         let program = self.program;
         let roots = program.outputs.get(&output).map_or(&[][..], Vec::as_slice);
-        self.found.fill(None);
+        self.lowered.fill(None);
         if in_two_loops && is_worth_two(program, roots) {
             self.in_two_loops(roots);
         } else {
@@ -266,12 +268,12 @@ impl<'a, K: Key> Lowering<'a, K> {
         let columns = Columns::of(self.program, roots);
         let cut = Cut::new(self.program, &columns, WORTH_IN_CACHE);
         self.statements(&cut.columns.values, &[Stage::Point]);
-        self.border.get_or_insert(self.steps.len());
-        let mut handed = vec![None; self.found.len()];
+        self.first_timed_step.get_or_insert(self.steps.len());
+        let mut handed = vec![None; self.lowered.len()];
         for value in &cut.columns.values {
-            handed[value.index()] = self.found[value.index()];
+            handed[value.index()] = self.lowered[value.index()];
         }
-        self.found = handed;
+        self.lowered = handed;
         for value in &cut.made {
             self.operation(*value);
         }
@@ -286,11 +288,11 @@ impl<'a, K: Key> Lowering<'a, K> {
         for (index, instr) in program.instrs.iter().enumerate() {
             let computed = needed[index] && own.contains(&instr.stage) && !fusion.absorbed[index];
             if computed && instr.stage == Stage::PointTime {
-                self.border.get_or_insert(self.steps.len());
+                self.first_timed_step.get_or_insert(self.steps.len());
             }
             match &fusion.fused[index] {
                 _ if !computed => {}
-                Some(fused) => self.found[index] = Some(self.fused(fused)),
+                Some(fused) => self.lowered[index] = Some(self.fused(fused)),
                 None => self.operation(Value(index as u32)),
             }
         }
@@ -304,47 +306,49 @@ impl<'a, K: Key> Lowering<'a, K> {
             Op::Subtract(a, b) => self.difference(*a, *b),
             Op::Multiply(a, b) => self.product(*a, *b),
             Op::Divide(a, b) => self.quotient(*a, *b),
-            Op::Negate(a) => (Kind::Negate, [self.column(*a), 0, 0]),
-            Op::Unary(Function::Sqrt, _, a) => (Kind::Root, [self.column(*a), 0, 0]),
+            Op::Negate(a) => (StepKind::Negate, [self.column(*a), 0, 0]),
+            Op::Unary(Function::Sqrt, _, a) => (StepKind::Root, [self.column(*a), 0, 0]),
             Op::Unary(function, small, a) => {
-                (Kind::Unary(*function, *small), [self.column(*a), 0, 0])
+                (StepKind::Unary(*function, *small), [self.column(*a), 0, 0])
             }
             Op::Binary(function, a, b) => {
-                (Kind::Binary(*function), [self.column(*a), self.column(*b), 0])
+                (StepKind::Binary(*function), [self.column(*a), self.column(*b), 0])
             }
         };
-        self.found[value.index()] = Some(Operand::Column(self.step(kind, operands)));
+        self.lowered[value.index()] = Some(Operand::Column(self.step(kind, operands)));
     }
 
-    fn sum(&mut self, a: Value, b: Value) -> (Kind, [u32; 3]) {
+    fn sum(&mut self, a: Value, b: Value) -> (StepKind, [u32; 3]) {
         match (self.place(a), self.place(b)) {
-            (Operand::Column(a), Operand::Column(b)) => (Kind::Add, [a, b, 0]),
-            (Operand::Column(a), Operand::Scalar(b)) => (Kind::AddScalar, [a, b, 0]),
-            (Operand::Scalar(a), _) => (Kind::AddScalar, [self.column(b), a, 0]),
+            (Operand::Column(a), Operand::Column(b)) => (StepKind::Add, [a, b, 0]),
+            (Operand::Column(a), Operand::Scalar(b)) => (StepKind::AddScalar, [a, b, 0]),
+            (Operand::Scalar(a), _) => (StepKind::AddScalar, [self.column(b), a, 0]),
         }
     }
 
-    fn difference(&mut self, a: Value, b: Value) -> (Kind, [u32; 3]) {
+    fn difference(&mut self, a: Value, b: Value) -> (StepKind, [u32; 3]) {
         match (self.place(a), self.place(b)) {
-            (Operand::Column(a), Operand::Column(b)) => (Kind::Subtract, [a, b, 0]),
-            (Operand::Column(a), Operand::Scalar(b)) => (Kind::AddScalar, [a, self.negative(b), 0]),
-            (Operand::Scalar(a), _) => (Kind::SubtractFrom, [self.column(b), a, 0]),
+            (Operand::Column(a), Operand::Column(b)) => (StepKind::Subtract, [a, b, 0]),
+            (Operand::Column(a), Operand::Scalar(b)) => {
+                (StepKind::AddScalar, [a, self.negative(b), 0])
+            }
+            (Operand::Scalar(a), _) => (StepKind::SubtractFrom, [self.column(b), a, 0]),
         }
     }
 
-    fn product(&mut self, a: Value, b: Value) -> (Kind, [u32; 3]) {
+    fn product(&mut self, a: Value, b: Value) -> (StepKind, [u32; 3]) {
         match (self.place(a), self.place(b)) {
-            (Operand::Column(a), Operand::Column(b)) => (Kind::Multiply, [a, b, 0]),
-            (Operand::Column(a), Operand::Scalar(b)) => (Kind::Scale, [a, b, 0]),
-            (Operand::Scalar(a), _) => (Kind::Scale, [self.column(b), a, 0]),
+            (Operand::Column(a), Operand::Column(b)) => (StepKind::Multiply, [a, b, 0]),
+            (Operand::Column(a), Operand::Scalar(b)) => (StepKind::Scale, [a, b, 0]),
+            (Operand::Scalar(a), _) => (StepKind::Scale, [self.column(b), a, 0]),
         }
     }
 
-    fn quotient(&mut self, a: Value, b: Value) -> (Kind, [u32; 3]) {
+    fn quotient(&mut self, a: Value, b: Value) -> (StepKind, [u32; 3]) {
         match (self.place(a), self.place(b)) {
-            (Operand::Column(a), Operand::Column(b)) => (Kind::Divide, [a, b, 0]),
-            (Operand::Column(a), Operand::Scalar(b)) => (Kind::DivideBy, [a, b, 0]),
-            (Operand::Scalar(a), _) => (Kind::DivideInto, [self.column(b), a, 0]),
+            (Operand::Column(a), Operand::Column(b)) => (StepKind::Divide, [a, b, 0]),
+            (Operand::Column(a), Operand::Scalar(b)) => (StepKind::DivideBy, [a, b, 0]),
+            (Operand::Scalar(a), _) => (StepKind::DivideInto, [self.column(b), a, 0]),
         }
     }
 
@@ -360,35 +364,35 @@ impl<'a, K: Key> Lowering<'a, K> {
         let (kind, operands) = match (scalar, self.place(term)) {
             (Operand::Column(b), Operand::Column(c)) => {
                 let kind = match (minus_product, minus_term) {
-                    (true, _) => Kind::SubtractProduct,
-                    (_, true) => Kind::MultiplySubtract,
-                    _ => Kind::MultiplyAdd,
+                    (true, _) => StepKind::SubtractProduct,
+                    (_, true) => StepKind::MultiplySubtract,
+                    _ => StepKind::MultiplyAdd,
                 };
                 (kind, [a, b, c])
             }
             (Operand::Column(b), Operand::Scalar(c)) => match minus_product {
-                true => (Kind::SubtractProductFrom, [a, b, c]),
-                false => (Kind::MultiplyAddScalar, [a, b, self.turned(c, minus_term)]),
+                true => (StepKind::SubtractProductFrom, [a, b, c]),
+                false => (StepKind::MultiplyAddScalar, [a, b, self.turned(c, minus_term)]),
             },
             (Operand::Scalar(b), Operand::Column(c)) => match minus_term {
-                true => (Kind::ScaleSubtract, [a, b, c]),
-                false => (Kind::ScaleAdd, [a, self.turned(b, minus_product), c]),
+                true => (StepKind::ScaleSubtract, [a, b, c]),
+                false => (StepKind::ScaleAdd, [a, self.turned(b, minus_product), c]),
             },
             (Operand::Scalar(b), Operand::Scalar(c)) => {
                 let operands = [a, self.turned(b, minus_product), self.turned(c, minus_term)];
-                (Kind::ScaleAddScalar, operands)
+                (StepKind::ScaleAddScalar, operands)
             }
         };
         Operand::Column(self.step(kind, operands))
     }
 
     /// The column of a step; an equal step is reused.
-    fn step(&mut self, kind: Kind, operands: [u32; 3]) -> u32 {
+    fn step(&mut self, kind: StepKind, operands: [u32; 3]) -> u32 {
         if let Some(known) = self.known.get(&(kind, operands)) {
             return *known;
         }
         let result = self.new_column();
-        self.steps.push(Step { kind, result, operands });
+        self.steps.push(BlockStep { kind, result, operands });
         self.known.insert((kind, operands), result);
         result
     }
@@ -402,15 +406,15 @@ impl<'a, K: Key> Lowering<'a, K> {
     fn place(&mut self, value: Value) -> Operand {
         let Instr { op, stage } = self.program.instr(value);
         match op {
-            Op::Constant(number) => self.scalar(Source::Constant(number.clone())),
-            Op::Pi => self.scalar(Source::Pi),
+            Op::Constant(number) => self.scalar(ScalarSource::Constant(number.clone())),
+            Op::Pi => self.scalar(ScalarSource::Pi),
             _ if !stage.needs_point() => {
                 let index =
                     self.renamed[value.index()].expect("every value that is read is needed");
-                self.scalar(Source::Once(index))
+                self.scalar(ScalarSource::Once(index))
             }
             Op::Input(symbol) => Operand::Column(self.input(*symbol)),
-            _ => self.found[value.index()].expect("operands come first"),
+            _ => self.lowered[value.index()].expect("operands come first"),
         }
     }
 
@@ -418,7 +422,7 @@ impl<'a, K: Key> Lowering<'a, K> {
     fn column(&mut self, value: Value) -> u32 {
         match self.place(value) {
             Operand::Column(column) => column,
-            Operand::Scalar(scalar) => self.step(Kind::Fill, [scalar, 0, 0]),
+            Operand::Scalar(scalar) => self.step(StepKind::Fill, [scalar, 0, 0]),
         }
     }
 
@@ -431,7 +435,7 @@ impl<'a, K: Key> Lowering<'a, K> {
         column
     }
 
-    fn scalar(&mut self, source: Source) -> Operand {
+    fn scalar(&mut self, source: ScalarSource) -> Operand {
         Operand::Scalar(self.scalar_place(Scalar { source, negated: false }))
     }
 
@@ -459,7 +463,7 @@ impl<'a, K: Key> Lowering<'a, K> {
             Operand::Scalar(_) => None,
         });
         let mut is_read = vec![false; self.columns as usize];
-        let read = after.iter().flat_map(Step::columns).chain(outputs);
+        let read = after.iter().flat_map(BlockStep::columns).chain(outputs);
         read.for_each(|column| is_read[column as usize] = true);
         let inputs = self.inputs.iter().map(|(_, column)| *column);
         let there = inputs.chain(before.iter().map(|step| step.result));
@@ -467,9 +471,9 @@ impl<'a, K: Key> Lowering<'a, K> {
     }
 
     /// Assigns registers to columns. The registers of inputs are never reused, since a block may have to be computed again.
-    fn finish(mut self, mut components: Vec<Operand>, outputs: Vec<Range<usize>>) -> Plan {
+    fn finish(mut self, mut components: Vec<Operand>, outputs: Vec<Range<usize>>) -> BlockPlan {
         const KEPT: usize = usize::MAX;
-        let border = self.border.unwrap_or(self.steps.len());
+        let border = self.first_timed_step.unwrap_or(self.steps.len());
         let mut kept = self.kept(border, &components);
         let mut last = vec![0; self.columns as usize];
         for (index, step) in self.steps.iter().enumerate() {
@@ -513,9 +517,9 @@ impl<'a, K: Key> Lowering<'a, K> {
         let mut parts = parts(&self.steps[..border], 0);
         let of_points = parts.len();
         parts.extend(self::parts(&self.steps[border..], border));
-        Plan {
-            early: self.once.partition_point(|instr| instr.stage == Stage::Parameter),
-            once: self.once,
+        BlockPlan {
+            parameter_count: self.uniform.partition_point(|instr| instr.stage == Stage::Parameter),
+            uniform: self.uniform,
             scalars: self.scalars,
             inputs: self.inputs.into_iter().map(|(symbol, _)| symbol).collect(),
             parts,
@@ -530,8 +534,8 @@ impl<'a, K: Key> Lowering<'a, K> {
 }
 
 /// The parts of steps whose first one has this position: functions one by one, and the steps between them.
-fn parts(steps: &[Step], first: usize) -> Vec<Range<usize>> {
-    let together = |a: &Step, b: &Step| !a.kind.is_function() && !b.kind.is_function();
+fn parts(steps: &[BlockStep], first: usize) -> Vec<Range<usize>> {
+    let together = |a: &BlockStep, b: &BlockStep| !a.kind.is_function() && !b.kind.is_function();
     let mut start = first;
     let parts = steps.chunk_by(together).map(|part| {
         start += part.len();
@@ -548,7 +552,7 @@ mod tests {
     use mms_symbolic::sorted::SortedMap;
 
     /// The plan of a program whose last value is the output.
-    fn plan(ops: Vec<Op>) -> Plan {
+    fn plan(ops: Vec<Op>) -> BlockPlan {
         let stage = |op: &Op| match op {
             Op::Input(symbol) => Stage::of(*symbol),
             _ => Stage::Point,
@@ -556,7 +560,7 @@ mod tests {
         let last = Value(ops.len() as u32 - 1);
         let instrs = ops.into_iter().map(|op| Instr { stage: stage(&op), op }).collect();
         let program = Program { instrs, outputs: SortedMap::from([(0, vec![last])]) };
-        Plan::new(&program, &[0], |_| false)
+        BlockPlan::new(&program, &[0], |_| false)
     }
 
     #[test]

@@ -14,7 +14,7 @@ use mms_math::simd::Simd;
 
 use super::BlockMode;
 use super::column::Column;
-use super::plan::{Kind, Operand, Plan, Step};
+use super::plan::{BlockPlan, BlockStep, Operand, StepKind};
 use crate::interpret;
 use mms_symbolic::expr::{Function, Small};
 
@@ -54,19 +54,24 @@ impl<T: Copy, const C: usize, const K: usize> Registers<'_, T, C, K> {
     }
 
     #[inline(always)]
-    fn one<S: Lift<T>>(&mut self, step: &Step, function: impl Fn(S) -> S) {
+    fn one<S: Lift<T>>(&mut self, step: &BlockStep, function: impl Fn(S) -> S) {
         let (result, [a]) = self.of(step.result, [step.operands[0]]);
         one(result, a, function);
     }
 
     #[inline(always)]
-    fn two<S: Lift<T>>(&mut self, step: &Step, places: [usize; 2], function: impl Fn(S, S) -> S) {
+    fn two<S: Lift<T>>(
+        &mut self,
+        step: &BlockStep,
+        places: [usize; 2],
+        function: impl Fn(S, S) -> S,
+    ) {
         let (result, [a, b]) = self.of(step.result, places.map(|place| step.operands[place]));
         two(result, a, b, function);
     }
 
     #[inline(always)]
-    fn three<S: Lift<T>>(&mut self, step: &Step, function: impl Fn(S, S, S) -> S) {
+    fn three<S: Lift<T>>(&mut self, step: &BlockStep, function: impl Fn(S, S, S) -> S) {
         let (result, [a, b, c]) = self.of(step.result, step.operands);
         for (((result, a), b), c) in result.iter_mut().zip(a).zip(b).zip(c) {
             let mut found = *a;
@@ -81,64 +86,66 @@ impl<T: Copy, const C: usize, const K: usize> Registers<'_, T, C, K> {
 
     /// Runs a step that is no elementary function.
     #[inline(always)]
-    fn step<S: Lift<T>>(&mut self, step: &Step) {
+    fn step<S: Lift<T>>(&mut self, step: &BlockStep) {
         let [a, b, c] = step.operands;
         match step.kind {
-            Kind::Fill => {
+            StepKind::Fill => {
                 let value = self.scalars[a as usize];
                 let (result, []) = self.of(step.result, []);
                 result.fill([value; C]);
             }
-            Kind::Add => self.two(step, [0, 1], |a: S, b: S| a + b),
-            Kind::AddScalar => {
+            StepKind::Add => self.two(step, [0, 1], |a: S, b: S| a + b),
+            StepKind::AddScalar => {
                 let b: S = self.scalar(b);
                 self.one(step, |a: S| a + b);
             }
-            Kind::Subtract => self.two(step, [0, 1], |a: S, b: S| a - b),
-            Kind::SubtractFrom => {
+            StepKind::Subtract => self.two(step, [0, 1], |a: S, b: S| a - b),
+            StepKind::SubtractFrom => {
                 let b: S = self.scalar(b);
                 self.one(step, |a: S| b - a);
             }
-            Kind::Multiply => self.two(step, [0, 1], |a: S, b: S| a * b),
-            Kind::Scale => {
+            StepKind::Multiply => self.two(step, [0, 1], |a: S, b: S| a * b),
+            StepKind::Scale => {
                 let b: S = self.scalar(b);
                 self.one(step, |a: S| a * b);
             }
-            Kind::Divide => self.two(step, [0, 1], |a: S, b: S| a / b),
-            Kind::DivideBy => {
+            StepKind::Divide => self.two(step, [0, 1], |a: S, b: S| a / b),
+            StepKind::DivideBy => {
                 let b: S = self.scalar(b);
                 self.one(step, |a: S| a / b);
             }
-            Kind::DivideInto => {
+            StepKind::DivideInto => {
                 let b: S = self.scalar(b);
                 self.one(step, |a: S| b / a);
             }
-            Kind::Negate => self.one(step, |a: S| -a),
-            Kind::Root => self.one(step, |a: S| a.sqrt()),
-            Kind::MultiplyAdd => self.three(step, |a: S, b: S, c: S| a.mul_add(b, c)),
-            Kind::MultiplySubtract => self.three(step, |a: S, b: S, c: S| a.mul_add(b, -c)),
-            Kind::SubtractProduct => self.three(step, |a: S, b: S, c: S| (-a).mul_add(b, c)),
-            Kind::MultiplyAddScalar => {
+            StepKind::Negate => self.one(step, |a: S| -a),
+            StepKind::Root => self.one(step, |a: S| a.sqrt()),
+            StepKind::MultiplyAdd => self.three(step, |a: S, b: S, c: S| a.mul_add(b, c)),
+            StepKind::MultiplySubtract => self.three(step, |a: S, b: S, c: S| a.mul_add(b, -c)),
+            StepKind::SubtractProduct => self.three(step, |a: S, b: S, c: S| (-a).mul_add(b, c)),
+            StepKind::MultiplyAddScalar => {
                 let c: S = self.scalar(c);
                 self.two(step, [0, 1], |a: S, b: S| a.mul_add(b, c));
             }
-            Kind::SubtractProductFrom => {
+            StepKind::SubtractProductFrom => {
                 let c: S = self.scalar(c);
                 self.two(step, [0, 1], |a: S, b: S| (-a).mul_add(b, c));
             }
-            Kind::ScaleAdd => {
+            StepKind::ScaleAdd => {
                 let b: S = self.scalar(b);
                 self.two(step, [0, 2], |a: S, c: S| a.mul_add(b, c));
             }
-            Kind::ScaleSubtract => {
+            StepKind::ScaleSubtract => {
                 let b: S = self.scalar(b);
                 self.two(step, [0, 2], |a: S, c: S| a.mul_add(b, -c));
             }
-            Kind::ScaleAddScalar => {
+            StepKind::ScaleAddScalar => {
                 let [b, c]: [S; 2] = [self.scalar(b), self.scalar(c)];
                 self.one(step, |a: S| a.mul_add(b, c));
             }
-            Kind::Unary(..) | Kind::Binary(_) => unreachable!("functions are parts of their own"),
+            StepKind::Unary(..) | StepKind::Binary(_) => {
+                unreachable!("functions are parts of their own")
+            }
         }
     }
 }
@@ -176,7 +183,7 @@ fn two<T: Copy, S: Lift<T>, const C: usize>(
 
 /// The steps between functions.
 struct Arithmetic<'a, 'b, T, const C: usize, const K: usize> {
-    steps: &'a [Step],
+    steps: &'a [BlockStep],
     registers: &'a mut Registers<'b, T, C, K>,
 }
 
@@ -311,7 +318,7 @@ mms_symbolic::for_functions!(functions);
 
 /// Runs some parts of a plan with the quick functions, over the first pieces of a block.
 pub(super) fn quickly<T: Float, const C: usize, const K: usize>(
-    (plan, parts): (&Plan, Range<usize>),
+    (plan, parts): (&BlockPlan, Range<usize>),
     mode: BlockMode,
     scalars: &[T],
     columns: &mut [Column<T, C, K>],
@@ -320,13 +327,13 @@ pub(super) fn quickly<T: Float, const C: usize, const K: usize>(
     let mut registers = Registers { scalars, columns, pieces };
     for part in &plan.parts[parts] {
         let steps = &plan.steps[part.clone()];
-        let Step { kind, result, operands: [a, b, _] } = steps[0];
+        let BlockStep { kind, result, operands: [a, b, _] } = steps[0];
         match kind {
-            Kind::Unary(function, small) => {
+            StepKind::Unary(function, small) => {
                 let (result, [argument]) = registers.of(result, [a]);
                 unary((function, small), mode, result, argument);
             }
-            Kind::Binary(function) => {
+            StepKind::Binary(function) => {
                 let (result, arguments) = registers.of(result, [a, b]);
                 binary(function, mode, result, arguments);
             }
@@ -337,7 +344,7 @@ pub(super) fn quickly<T: Float, const C: usize, const K: usize>(
 
 /// Runs the whole plan with the careful functions of the number type, which accept every argument.
 pub(super) fn carefully<T: Lift<T>, const C: usize, const K: usize>(
-    plan: &Plan,
+    plan: &BlockPlan,
     scalars: &[T],
     columns: &mut [Column<T, C, K>],
     pieces: usize,
@@ -345,10 +352,10 @@ pub(super) fn carefully<T: Lift<T>, const C: usize, const K: usize>(
     let mut registers = Registers { scalars, columns, pieces };
     for step in &plan.steps {
         match step.kind {
-            Kind::Unary(function, small) => {
+            StepKind::Unary(function, small) => {
                 registers.one(step, |x: T| interpret::unary(function, small, x));
             }
-            Kind::Binary(function) => {
+            StepKind::Binary(function) => {
                 registers.two(step, [0, 1], |a: T, b: T| interpret::binary(function, a, b));
             }
             _ => registers.step::<T>(step),
@@ -359,7 +366,7 @@ pub(super) fn carefully<T: Lift<T>, const C: usize, const K: usize>(
 /// Returns false if any result is not a number. May also return false for infinities, since it tests sums, as compiled code
 /// does. After the last point there are copies of the first one.
 pub(super) fn are_numbers<T: Float, const C: usize, const K: usize>(
-    plan: &Plan,
+    plan: &BlockPlan,
     scalars: &[T],
     columns: &[Column<T, C, K>],
     pieces: usize,

@@ -125,9 +125,9 @@ impl Ratios {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Scope {
     /// All operations, including those that were replaced when numbers were multiplied into sums.
-    Made,
+    All,
     /// The operations that the roots need.
-    Needed,
+    Reachable,
 }
 
 /// The steps of counting a pair.
@@ -136,10 +136,10 @@ const STEPS_OF_PAIR: u64 = 50;
 /// Extracts shared pairs until no pair occurs twice, or the budget is spent.
 pub(super) fn share(flat: &mut Flat, roots: &[Item], scope: Scope, work: &Work) {
     let counted: Vec<Item> = match scope {
-        Scope::Made => (0..flat.forms.len()).map(|index| Item(index as u32)).collect(),
-        Scope::Needed => reachable(roots, Item::index, |item| flat.form(item).operands()),
+        Scope::All => (0..flat.forms.len()).map(|index| Item(index as u32)).collect(),
+        Scope::Reachable => reachable(roots, Item::index, |item| flat.form(item).operands()),
     };
-    let mut table = Table { common: common(flat, &counted), ..Table::default() };
+    let mut table = PairCounts { common: common(flat, &counted), ..PairCounts::default() };
     for item in counted {
         if work.is_over() {
             return;
@@ -170,12 +170,12 @@ fn common(flat: &Flat, counted: &[Item]) -> Vec<bool> {
 
 /// The places and frequencies of pairs.
 #[derive(Default)]
-struct Table {
+struct PairCounts {
     /// The sharable operands among the operations before sharing.
     common: Vec<bool>,
     ratios: Ratios,
     /// The occurrences of each pair. The order of this map has no effect.
-    places: FxHashMap<Pair, Places>,
+    places: FxHashMap<Pair, Occurrences>,
     /// Pairs that occur more than once, ranked by an upper bound of their frequency; of equals, the first in order. The order
     /// ignores the values of ratios, which `best` compares.
     ranked: BinaryHeap<(u64, Reverse<Pair>)>,
@@ -185,7 +185,7 @@ struct Table {
 
 /// The number of occurrences of a pair, in total and in each operation.
 #[derive(Default)]
-struct Places {
+struct Occurrences {
     total: u64,
     /// The frequency in the ranking, which is not below the true one; 0 if the pair is not ranked.
     ranked: u64,
@@ -195,7 +195,7 @@ struct Places {
     each: Vec<(Item, u64)>,
 }
 
-impl Places {
+impl Occurrences {
     /// Sets how often the pair occurs in an operation.
     fn set(&mut self, item: Item, count: u64) {
         if self.each.is_empty() {
@@ -229,7 +229,7 @@ impl Places {
     }
 }
 
-impl Table {
+impl PairCounts {
     /// Counts the pairs of an operation before any is ranked.
     fn count(&mut self, flat: &Flat, item: Item) {
         let pairs = self.take_pairs(flat.form(item), None);
@@ -261,7 +261,7 @@ impl Table {
         self.pairs = pairs;
     }
 
-    /// Removes the pairs of an operation. A pair that occurs less often keeps its rank until [`Table::next`] reads it.
+    /// Removes the pairs of an operation. A pair that occurs less often keeps its rank until [`PairCounts::next`] reads it.
     fn withdraw(&mut self, flat: &Flat, item: Item, concerned: [Item; 3]) {
         let pairs = self.take_pairs(flat.form(item), Some(concerned));
         for (pair, _) in &pairs {
@@ -439,9 +439,9 @@ mod tests {
         let whole = flat.form(roots[0]).clone();
         let Operation::Product(factors) = &whole else { panic!("{whole:?}") };
         flat.push(Operation::Product(factors[1..].to_vec()));
-        share(&mut flat, &roots, Scope::Needed, graph.work());
+        share(&mut flat, &roots, Scope::Reachable, graph.work());
         assert_eq!(*flat.form(roots[0]), whole);
-        share(&mut flat, &roots, Scope::Made, graph.work());
+        share(&mut flat, &roots, Scope::All, graph.work());
         assert_ne!(*flat.form(roots[0]), whole);
     }
 }

@@ -127,11 +127,11 @@ impl Flat {
     }
 
     /// `count` items of ln(-1), which has no value in any arithmetic.
-    pub(super) fn void(count: usize) -> (Self, Vec<Item>) {
+    pub(super) fn undefined(count: usize) -> (Self, Vec<Item>) {
         let mut flat = Flat::default();
         let number = flat.push(Operation::Constant(Rational::NEG_ONE));
-        let void = flat.push(Operation::Call(Function::Ln, None, vec![number]));
-        (flat, vec![void; count])
+        let undefined = flat.push(Operation::Call(Function::Ln, None, vec![number]));
+        (flat, vec![undefined; count])
     }
 
     pub(super) fn form(&self, item: Item) -> &Operation {

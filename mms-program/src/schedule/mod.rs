@@ -97,7 +97,7 @@ pub fn schedule<K: Key>(graph: &Graph, outputs: &SortedMap<K, Vec<Expr>>) -> Pro
 pub fn schedule_plainly<K: Key>(graph: &Graph, outputs: &SortedMap<K, Vec<Expr>>) -> Program<K> {
     let program = lowered(outputs, &|components| {
         let (flat, roots) = match graph.work().is_over() {
-            true => Flat::void(components.len()),
+            true => Flat::undefined(components.len()),
             false => {
                 let all = (&graph.reachable(components)[..], components);
                 Flat::new(graph, all, Grouping::Staged, Scaling::Factors)
@@ -141,7 +141,7 @@ const ONCE_FOR_EVERY_POINT: usize = 8;
 
 /// An upper bound of the cost of the components of one output: the emitted program has more candidates.
 pub fn cost(graph: &Graph, components: &[Expr]) -> Cost {
-    let scopes = [Scope::Made];
+    let scopes = [Scope::All];
     let ways = written(graph, components, Scaling::Factors, &scopes);
     cheapest(graph, &ways, &scopes).0
 }
@@ -205,7 +205,7 @@ fn cheapest(graph: &Graph, written: &[FlatProgram], scopes: &[Scope]) -> (Cost, 
     for scope in scopes {
         for (way, spent) in written.iter().zip(&mut spent) {
             // If all operations are needed, both scopes give the same result.
-            if *scope == Scope::Needed && *spent > 0 && is_needed(way) {
+            if *scope == Scope::Reachable && *spent > 0 && is_needed(way) {
                 work.spend(*spent);
                 continue;
             }
@@ -233,7 +233,7 @@ fn is_needed((flat, roots): &FlatProgram) -> bool {
 /// The cheapest candidate, with numbers multiplied into sums if that saves operations at a point. It rarely does, so it is only
 /// tried for emitted programs and close decisions, and not for all comparisons.
 fn cheapest_of_all(graph: &Graph, components: &[Expr]) -> FlatProgram {
-    let scopes = [Scope::Made, Scope::Needed];
+    let scopes = [Scope::All, Scope::Reachable];
     let before = graph.work().left();
     let unscaled = written(graph, components, Scaling::Factors, &scopes);
     let (cost, plain) = cheapest(graph, &unscaled, &scopes);

@@ -3,7 +3,7 @@
 use super::{Local, Space};
 
 /// A kind of cell as data: its number in VTK, dimension, corners, the corners around each other node, and its polynomials.
-pub(super) type Row = (u8, usize, &'static [Local], &'static [&'static [usize]], Space);
+pub(super) type CellType = (u8, usize, &'static [Local], &'static [&'static [usize]], Space);
 
 const LINE: &[Local] = &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
 const TRIANGLE: &[Local] = &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
@@ -70,7 +70,7 @@ const WEDGE_EDGES: [&[usize]; 12] = [
     &[1, 2, 5, 4],
     &[2, 0, 3, 5],
 ];
-pub(super) const ROWS: &[Row] = &[
+pub(super) const ROWS: &[CellType] = &[
     (3, 1, LINE, &[], Space::Product([1; 3])),
     (5, 2, TRIANGLE, &[], Space::Complete(1)),
     (8, 2, PIXEL, &[], Space::Product([1; 3])),

@@ -158,7 +158,7 @@ impl<'a> File<'a> {
     }
 
     /// Refuses a block whose number of rows is not the stated one.
-    fn hold(&self, said: Option<usize>, rows: usize) -> Result<(), Mistake> {
+    fn validate_rows(&self, said: Option<usize>, rows: usize) -> Result<(), Mistake> {
         match said {
             Some(count) if count != rows => {
                 Err(self.mistake(format!("{rows} rows in a block that says it has {count}")))
@@ -181,7 +181,7 @@ impl<'a> File<'a> {
             Form::Binary(bytes) => {
                 let count = said.unwrap_or(0);
                 let data = self.binary(count, 4 + bytes * width)?;
-                self.wanted.take("the file", count * (1 + width))?;
+                self.wanted.reserve("the file", count * (1 + width))?;
                 numbers.values.reserve_exact(count * width);
                 for row in data.chunks_exact(4 + bytes * width) {
                     tags.push(tag(row));
@@ -212,7 +212,7 @@ impl<'a> File<'a> {
                 numbers.push(text, self.wanted).map_err(|it| self.mistake(it.what))?;
             }
         }
-        self.hold(said, tags.len())?;
+        self.validate_rows(said, tags.len())?;
         Ok(Rows { tags, numbers, binary: None })
     }
 
@@ -235,7 +235,7 @@ impl<'a> File<'a> {
                     let line = self.record()?;
                     match line.get(..3) {
                         Some(b" -3") => {
-                            self.hold(said, count)?;
+                            self.validate_rows(said, count)?;
                             break;
                         }
                         Some(b" -1") => self.whole(line, 3 + columns, 5)?,
@@ -266,7 +266,7 @@ impl<'a> File<'a> {
                 }
             }
             if count % AT_ONCE == 0 {
-                self.wanted.take("the elements", AT_ONCE * order.len())?;
+                self.wanted.reserve("the elements", AT_ONCE * order.len())?;
             }
             for place in *order {
                 let node = nodes[*place];
@@ -360,7 +360,7 @@ impl<'a> File<'a> {
         }
         if before.is_none() {
             let numbers = mesh.points.as_ref().map_or(0, |it| it.values.len());
-            self.wanted.take("the mesh", numbers + mesh.cells.points.len())?;
+            self.wanted.reserve("the mesh", numbers + mesh.cells.points.len())?;
             found.push(Snapshot { time: Some(time), ..mesh.clone() });
         }
         names.retain(|it| self.wanted.reads(it));

@@ -5,7 +5,7 @@
 use memchr::memmem;
 
 use super::gmsh_mesh::{Mesh, element};
-use super::numbers::{Kind, Order};
+use super::numbers::{ByteOrder, NumberType};
 use super::text::{Numbers, number};
 use crate::wanted::Wanted;
 use crate::{Array, Mistake, Snapshot, Stored};
@@ -81,14 +81,14 @@ struct Format {
     /// 20, 40 or 41.
     version: u32,
     is_binary: bool,
-    order: Order,
+    order: ByteOrder,
     /// The bytes of a count in binary.
     size: usize,
 }
 
 impl Default for Format {
     fn default() -> Self {
-        Format { version: 41, is_binary: false, order: Order::Little, size: 8 }
+        Format { version: 41, is_binary: false, order: ByteOrder::Little, size: 8 }
     }
 }
 
@@ -160,11 +160,11 @@ impl<'a> File<'a> {
         }
         let order = self.format.order;
         Ok(match *self.raw(bytes)? {
-            [a, b, c, d] if order == Order::Little => i32::from_le_bytes([a, b, c, d]).into(),
+            [a, b, c, d] if order == ByteOrder::Little => i32::from_le_bytes([a, b, c, d]).into(),
             [a, b, c, d] => i32::from_be_bytes([a, b, c, d]).into(),
             ref data => {
                 let data = *data.first_chunk().ok_or_else(|| self.cut())?;
-                if order == Order::Little {
+                if order == ByteOrder::Little {
                     i64::from_le_bytes(data)
                 } else {
                     i64::from_be_bytes(data)
@@ -213,7 +213,7 @@ impl<'a> File<'a> {
     fn numbers(&mut self, count: usize, to: &mut Numbers) -> Result<(), Mistake> {
         if self.format.is_binary {
             let data = self.raw(count.saturating_mul(8))?;
-            to.values.extend(Kind::Float(8).read(data, self.format.order));
+            to.values.extend(NumberType::Float(8).read(data, self.format.order));
             return Ok(());
         }
         for _ in 0..count {
@@ -268,8 +268,8 @@ impl<'a> File<'a> {
         if form == 1 {
             self.end_line();
             self.format.order = match *self.raw(4)? {
-                [1, 0, 0, 0] => Order::Little,
-                [0, 0, 0, 1] => Order::Big,
+                [1, 0, 0, 0] => ByteOrder::Little,
+                [0, 0, 0, 1] => ByteOrder::Big,
                 _ => {
                     return Err(
                         self.mistake("expected the integer 1 behind the format: is it damaged?")
@@ -285,7 +285,7 @@ impl<'a> File<'a> {
         let had = mesh.tags.len();
         if version == 20 {
             let count = self.size(1, 3)?;
-            self.wanted.take("the nodes", count)?;
+            self.wanted.reserve("the nodes", count)?;
             for _ in 0..count {
                 mesh.tags.push(self.whole(4)? as u64);
                 self.coordinates(3, 0, mesh)?;
@@ -298,7 +298,7 @@ impl<'a> File<'a> {
             let dimension = if version == 41 { first } else { second };
             let more = if is_parametric == 1 { dimension.clamp(0, 3) as usize } else { 0 };
             let count = self.size(1, 3)?;
-            self.wanted.take("the nodes", count)?;
+            self.wanted.reserve("the nodes", count)?;
             if version == 40 {
                 for _ in 0..count {
                     mesh.tags.push(self.whole(4)? as u64);
@@ -320,7 +320,7 @@ impl<'a> File<'a> {
     /// Reads coordinates, and skips `more` parameters after them.
     fn coordinates(&mut self, count: usize, more: usize, mesh: &mut Mesh) -> Result<(), Mistake> {
         if self.format.is_binary {
-            self.wanted.take("the nodes", count)?;
+            self.wanted.reserve("the nodes", count)?;
         }
         self.numbers(count, &mut mesh.places)?;
         self.pass(more)
@@ -384,7 +384,7 @@ impl<'a> File<'a> {
         })?;
         let each = kind.nodes + others + 1 - usize::from(tag.is_some());
         let count = self.held(count as i64, each, 0)?;
-        self.wanted.take("the elements", count.saturating_mul(kind.nodes + 3))?;
+        self.wanted.reserve("the elements", count.saturating_mul(kind.nodes + 3))?;
         let mut nodes = Vec::with_capacity(kind.nodes);
         for _ in 0..count {
             let tag = match tag {
@@ -456,9 +456,9 @@ impl<'a> File<'a> {
         let components = components
             .ok_or_else(|| self.mistake(format!("`{name}`: expected how many numbers each has")))?;
         let rows = self.held(rows, 1, components)?;
-        self.wanted.take(&format!("`{name}`"), rows)?;
+        self.wanted.reserve(&format!("`{name}`"), rows)?;
         if self.format.is_binary && is_wanted {
-            self.wanted.take(&format!("`{name}`"), rows * components)?;
+            self.wanted.reserve(&format!("`{name}`"), rows * components)?;
         }
         let (mut tags, mut numbers) = (Vec::with_capacity(rows), Numbers::default());
         for _ in 0..rows {

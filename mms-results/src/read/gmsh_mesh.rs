@@ -402,7 +402,7 @@ impl View {
         }
         let (next, size) = (positions(kept), self.array.components);
         let count = kept.iter().filter(|it| **it).count();
-        wanted.take(&format!("`{}`", self.array.name), count * size)?;
+        wanted.reserve(&format!("`{}`", self.array.name), count * size)?;
         let mut values = vec![0.0; count * size];
         for (place, row) in self.tags.iter().zip(self.array.values.chunks_exact(size)) {
             let place = *place as usize;
@@ -441,7 +441,7 @@ impl Snapshot {
         let is_known = times.len() > 1 || times[0].0 != 0.0;
         let mut found = Vec::new();
         for (value, stored) in &times {
-            wanted.take("the mesh", numbers + self.cells.points.len())?;
+            wanted.reserve("the mesh", numbers + self.cells.points.len())?;
             let time = Time { value: *value, rounding: stored.rounding(*value) };
             found.push(Snapshot { time: is_known.then_some(time), ..self.clone() });
         }

@@ -3,7 +3,7 @@
 use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
 
 use super::npz::{HEAD, RATIO};
-use super::numbers::{Kind, Order, by_rows, count};
+use super::numbers::{ByteOrder, NumberType, by_rows, count};
 use super::table::is_time;
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Stored};
@@ -40,8 +40,8 @@ fn cut(name: &str) -> Mistake {
 pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     let header = bytes.get(..HEADER).ok_or_else(|| cut("its header"))?;
     let order = match &header[HEADER - 2..] {
-        b"IM" => Order::Little,
-        b"MI" => Order::Big,
+        b"IM" => ByteOrder::Little,
+        b"MI" => ByteOrder::Big,
         _ => return Err(Mistake::new("its header does not say which byte of a number is first")),
     };
     let mut snapshot = Snapshot::default();
@@ -80,7 +80,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
 /// Reads a packed variable. Unpacks it only if it is wanted, and only to its declared size.
 fn packed(
     data: &[u8],
-    order: Order,
+    order: ByteOrder,
     snapshot: &mut Snapshot,
     wanted: &Wanted<'_>,
 ) -> Result<(), Mistake> {
@@ -118,7 +118,7 @@ struct Element {
 
 impl Element {
     /// The head of the first element; `None` if it is cut off.
-    fn first(bytes: &[u8], order: Order) -> Option<Self> {
+    fn first(bytes: &[u8], order: ByteOrder) -> Option<Self> {
         let word = whole(bytes, order)?;
         // A short element has its length beside its kind, and at most four bytes of data.
         if word >> 16 != 0 {
@@ -145,17 +145,17 @@ impl Element {
 }
 
 /// Reads a number of four bytes.
-fn whole(bytes: &[u8], order: Order) -> Option<u32> {
+fn whole(bytes: &[u8], order: ByteOrder) -> Option<u32> {
     let bytes = *bytes.first_chunk::<4>()?;
     Some(match order {
-        Order::Little => u32::from_le_bytes(bytes),
-        Order::Big => u32::from_be_bytes(bytes),
+        ByteOrder::Little => u32::from_le_bytes(bytes),
+        ByteOrder::Big => u32::from_be_bytes(bytes),
     })
 }
 
 /// A variable.
 struct Matrix<'a> {
-    order: Order,
+    order: ByteOrder,
     class: u32,
     is_complex: bool,
     shape: Vec<usize>,
@@ -166,7 +166,7 @@ struct Matrix<'a> {
 
 impl<'a> Matrix<'a> {
     /// The head of a variable.
-    fn of(bytes: &'a [u8], order: Order) -> Result<Self, Mistake> {
+    fn of(bytes: &'a [u8], order: ByteOrder) -> Result<Self, Mistake> {
         let next = |bytes: &'a [u8]| Element::first(bytes, order)?.split(bytes, 8);
         let found = (|| {
             let (flags, rest) = next(bytes)?;
@@ -186,7 +186,7 @@ impl<'a> Matrix<'a> {
     }
 
     /// The kind of the variable's numbers, their count, and their element.
-    fn numbers(&self) -> Result<(Kind, usize, Element), String> {
+    fn numbers(&self) -> Result<(NumberType, usize, Element), String> {
         let Some(element) = Element::first(self.rest, self.order) else {
             return Err("the file ends before its numbers".into());
         };
@@ -255,7 +255,7 @@ impl<'a> Matrix<'a> {
     /// Reserves memory for the data that are read, and for `bytes` unpacked bytes.
     fn take_room(&self, bytes: usize, wanted: &Wanted<'_>) -> Result<(), Mistake> {
         if self.class == STRUCTURE {
-            return wanted.take(&self.called(), bytes / 8);
+            return wanted.reserve(&self.called(), bytes / 8);
         }
         let numbers = self.numbers().map_err(|what| self.wrong(&self.name, what))?;
         let start = numbers.2.start + numbers.2.length + 8;
@@ -263,7 +263,7 @@ impl<'a> Matrix<'a> {
         if behind > HEAD {
             return Err(self.wrong(&self.name, format!("{behind} bytes behind its numbers")));
         }
-        wanted.take(&self.called(), numbers.1)
+        wanted.reserve(&self.called(), numbers.1)
     }
 
     /// Reads the numbers of the variable, or of its fields.
@@ -328,8 +328,8 @@ fn of_columns(name: &str, values: Vec<f64>, shape: &[usize], stored: Stored) -> 
 
 /// The head of a variable of version 4: five numbers before its name.
 struct Old {
-    order: Order,
-    kind: Kind,
+    order: ByteOrder,
+    kind: NumberType,
     /// Whether it contains numbers, and all of them.
     is_full: bool,
     is_complex: bool,
@@ -345,20 +345,24 @@ impl Old {
 
     /// The head of a variable; `None` if these bytes are no head.
     fn first(bytes: &[u8]) -> Option<Self> {
-        let order = if whole(bytes, Order::Little)? < 1000 { Order::Little } else { Order::Big };
+        let order = if whole(bytes, ByteOrder::Little)? < 1000 {
+            ByteOrder::Little
+        } else {
+            ByteOrder::Big
+        };
         let mut words =
             bytes.get(..Old::BYTES)?.as_chunks::<4>().0.iter().map(|it| whole(it, order));
         let [kind, rows, columns, imaginary, name] =
             std::array::from_fn(|_| words.next().flatten());
-        let kind = kind?.checked_sub(if order == Order::Big { 1000 } else { 0 })?;
+        let kind = kind?.checked_sub(if order == ByteOrder::Big { 1000 } else { 0 })?;
         let (form, kind) = (kind % 10, kind / 10);
         let kind = match kind {
-            0 => Kind::Float(8),
-            1 => Kind::Float(4),
-            2 => Kind::Signed(4),
-            3 => Kind::Signed(2),
-            4 => Kind::Unsigned(2),
-            5 => Kind::Unsigned(1),
+            0 => NumberType::Float(8),
+            1 => NumberType::Float(4),
+            2 => NumberType::Signed(4),
+            3 => NumberType::Signed(2),
+            4 => NumberType::Unsigned(2),
+            5 => NumberType::Unsigned(1),
             _ => return None,
         };
         let name = name.filter(|it| (2..Old::LETTERS).contains(it))? as usize;
@@ -397,7 +401,7 @@ pub fn parse_version_4(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mi
         rest = after;
         let is_needed = is_time(&name) || wanted.reads(&name);
         if is_needed && head.is_full && !head.is_complex && numbers > 0 {
-            wanted.take(&format!("`{name}`"), numbers)?;
+            wanted.reserve(&format!("`{name}`"), numbers)?;
             let values = head.kind.read(data, head.order);
             snapshot.take(of_columns(&name, values, &head.shape, head.kind.stored()));
         } else if wanted.need(&name) == Need::Must {
@@ -410,18 +414,18 @@ pub fn parse_version_4(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mi
 }
 
 /// A kind of numbers by the number of its element.
-fn kind(number: u32) -> Option<Kind> {
+fn kind(number: u32) -> Option<NumberType> {
     Some(match number {
-        1 => Kind::Signed(1),
-        2 => Kind::Unsigned(1),
-        3 => Kind::Signed(2),
-        4 => Kind::Unsigned(2),
-        5 => Kind::Signed(4),
-        6 => Kind::Unsigned(4),
-        7 => Kind::Float(4),
-        9 => Kind::Float(8),
-        12 => Kind::Signed(8),
-        13 => Kind::Unsigned(8),
+        1 => NumberType::Signed(1),
+        2 => NumberType::Unsigned(1),
+        3 => NumberType::Signed(2),
+        4 => NumberType::Unsigned(2),
+        5 => NumberType::Signed(4),
+        6 => NumberType::Unsigned(4),
+        7 => NumberType::Float(4),
+        9 => NumberType::Float(8),
+        12 => NumberType::Signed(8),
+        13 => NumberType::Unsigned(8),
         _ => return None,
     })
 }

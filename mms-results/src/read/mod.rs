@@ -255,7 +255,8 @@ fn contents(path: &Path, open: Opened<'_>) -> Result<Contents, Mistake> {
         let path = path.with_file_name(file);
         open(&path, wanted.room()).map_err(|what| Mistake::new(what).of(&path.to_string_lossy()))
     };
-    let found = wanted.beside(bytes.len(), || parse_beside(Cow::Owned(bytes), wanted, &beside));
+    let found =
+        wanted.with_reserved(bytes.len(), || parse_beside(Cow::Owned(bytes), wanted, &beside));
     found.map_err(|mistake| mistake.of(&name))
 }
 

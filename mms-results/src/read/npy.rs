@@ -1,6 +1,6 @@
 //! An array of NumPy: "NEP 1, a simple file format for NumPy arrays".
 
-use super::numbers::{Kind, Order, by_rows, count};
+use super::numbers::{ByteOrder, NumberType, by_rows, count};
 use crate::wanted::Wanted;
 use crate::{Array, Mistake, Snapshot};
 
@@ -11,8 +11,8 @@ pub const MAGIC: &[u8] = b"\x93NUMPY";
 pub struct Head {
     /// The bytes of the header, including those before it.
     bytes: usize,
-    kind: Kind,
-    order: Order,
+    kind: NumberType,
+    order: ByteOrder,
     is_fortran: bool,
     shape: Vec<usize>,
     /// The number of numbers.
@@ -51,7 +51,7 @@ impl Head {
 /// Reads a file of one array, which is called `array`.
 pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     let numbers = Head::of(bytes).map_or(0, |head| head.numbers());
-    wanted.take("`array`", numbers.min(bytes.len()))?;
+    wanted.reserve("`array`", numbers.min(bytes.len()))?;
     let array = array("array", bytes)?;
     let names = wanted.columns();
     if names.is_empty() {
@@ -130,7 +130,7 @@ fn behind<'a>(text: &'a str, key: &str) -> Result<&'a str, Mistake> {
 }
 
 /// The type and the byte order of numbers, from their description.
-fn numbers(described: &str) -> Result<(Kind, Order), Mistake> {
+fn numbers(described: &str) -> Result<(NumberType, ByteOrder), Mistake> {
     let name = described.strip_prefix('\'').and_then(|it| it.split_once('\'')).map(|it| it.0);
     let name = name.ok_or_else(|| {
         Mistake::new(
@@ -138,9 +138,9 @@ fn numbers(described: &str) -> Result<(Kind, Order), Mistake> {
         )
     })?;
     let (order, kind) = match name.split_at_checked(1) {
-        Some((">", kind)) => (Order::Big, kind),
-        Some(("<" | "|" | "=", kind)) => (Order::Little, kind),
-        _ => (Order::Little, name),
+        Some((">", kind)) => (ByteOrder::Big, kind),
+        Some(("<" | "|" | "=", kind)) => (ByteOrder::Little, kind),
+        _ => (ByteOrder::Little, name),
     };
     let advice = match kind.as_bytes() {
         [b'c', ..] => "; of complex numbers save the real part",
@@ -148,7 +148,7 @@ fn numbers(described: &str) -> Result<(Kind, Order), Mistake> {
         [b'O', ..] => "; of objects save an array of numbers each",
         _ => "",
     };
-    let kind = Kind::of_numpy(kind).ok_or_else(|| {
+    let kind = NumberType::of_numpy(kind).ok_or_else(|| {
         Mistake::new(format!(
             "numbers of type `{name}` are not read; expected floating-point numbers or integers{advice}"
         ))
@@ -157,7 +157,7 @@ fn numbers(described: &str) -> Result<(Kind, Order), Mistake> {
 }
 
 /// The type of numbers, their byte order, whether the first axis runs fastest, and the shape.
-fn header(text: &str) -> Result<(Kind, Order, bool, Vec<usize>), Mistake> {
+fn header(text: &str) -> Result<(NumberType, ByteOrder, bool, Vec<usize>), Mistake> {
     let (kind, order) = numbers(behind(text, "descr")?)?;
     let shape = behind(text, "shape")?;
     let shape = shape.strip_prefix('(').and_then(|it| it.split_once(')')).map(|it| it.0);

@@ -114,7 +114,7 @@ impl Entry<'_> {
             let found = self.length.min(most);
             return Err(self.wrong(format!("{found} bytes, and its shape needs {declared}")));
         }
-        wanted.take(&format!("`{}`", self.name), head.numbers())?;
+        wanted.reserve(&format!("`{}`", self.name), head.numbers())?;
         let unpacked;
         let bytes = match self.method {
             CompressionMethod::STORE => self.data,

@@ -4,7 +4,7 @@ use crate::{Mistake, Stored};
 
 /// The order of the bytes in a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Order {
+pub enum ByteOrder {
     /// The least significant byte first.
     Little,
     /// The most significant byte first.
@@ -13,7 +13,7 @@ pub enum Order {
 
 /// A type of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum NumberType {
     /// A floating-point number of this many bytes: 2, 4 or 8.
     Float(usize),
     /// An integer with a sign, of this many bytes: 1, 2, 4 or 8.
@@ -22,9 +22,9 @@ pub enum Kind {
     Unsigned(usize),
 }
 
-impl Kind {
+impl NumberType {
     /// Parses a name of VTK in XML: `Float64`, `Int32`, `UInt8`.
-    pub fn of_xml(name: &str) -> Option<Kind> {
+    pub fn of_xml(name: &str) -> Option<NumberType> {
         let at = name.find(|it: char| it.is_ascii_digit())?;
         let bytes = match &name[at..] {
             "8" => 1,
@@ -34,45 +34,46 @@ impl Kind {
             _ => return None,
         };
         match (&name[..at], bytes) {
-            ("Float", 4 | 8) => Some(Kind::Float(bytes)),
-            ("Int", _) => Some(Kind::Signed(bytes)),
-            ("UInt", _) => Some(Kind::Unsigned(bytes)),
+            ("Float", 4 | 8) => Some(NumberType::Float(bytes)),
+            ("Int", _) => Some(NumberType::Signed(bytes)),
+            ("UInt", _) => Some(NumberType::Unsigned(bytes)),
             _ => None,
         }
     }
 
     /// Parses a name of legacy VTK.
-    pub fn of_legacy(name: &str) -> Option<Kind> {
+    pub fn of_legacy(name: &str) -> Option<NumberType> {
         Some(match name {
-            "float" => Kind::Float(4),
-            "double" => Kind::Float(8),
-            "char" | "signed_char" => Kind::Signed(1),
-            "unsigned_char" => Kind::Unsigned(1),
-            "short" => Kind::Signed(2),
-            "unsigned_short" => Kind::Unsigned(2),
-            "int" => Kind::Signed(4),
-            "unsigned_int" => Kind::Unsigned(4),
-            "long" | "vtkidtype" | "vtktypeint64" => Kind::Signed(8),
-            "unsigned_long" | "vtktypeuint64" => Kind::Unsigned(8),
+            "float" => NumberType::Float(4),
+            "double" => NumberType::Float(8),
+            "char" | "signed_char" => NumberType::Signed(1),
+            "unsigned_char" => NumberType::Unsigned(1),
+            "short" => NumberType::Signed(2),
+            "unsigned_short" => NumberType::Unsigned(2),
+            "int" => NumberType::Signed(4),
+            "unsigned_int" => NumberType::Unsigned(4),
+            "long" | "vtkidtype" | "vtktypeint64" => NumberType::Signed(8),
+            "unsigned_long" | "vtktypeuint64" => NumberType::Unsigned(8),
             _ => return None,
         })
     }
 
     /// Parses a name of NumPy: `f8`, `i4`, `u1`.
-    pub fn of_numpy(name: &str) -> Option<Kind> {
+    pub fn of_numpy(name: &str) -> Option<NumberType> {
         let (letter, bytes) = name.split_at_checked(1)?;
         let bytes = bytes.parse().ok()?;
         match (letter, bytes) {
-            ("f", 2 | 4 | 8) => Some(Kind::Float(bytes)),
-            ("i", 1 | 2 | 4 | 8) => Some(Kind::Signed(bytes)),
-            ("u", 1 | 2 | 4 | 8) | ("b", 1) => Some(Kind::Unsigned(bytes)),
+            ("f", 2 | 4 | 8) => Some(NumberType::Float(bytes)),
+            ("i", 1 | 2 | 4 | 8) => Some(NumberType::Signed(bytes)),
+            ("u", 1 | 2 | 4 | 8) | ("b", 1) => Some(NumberType::Unsigned(bytes)),
             _ => None,
         }
     }
 
     /// The number of bytes.
     pub fn bytes(self) -> usize {
-        let (Kind::Float(bytes) | Kind::Signed(bytes) | Kind::Unsigned(bytes)) = self;
+        let (NumberType::Float(bytes) | NumberType::Signed(bytes) | NumberType::Unsigned(bytes)) =
+            self;
         bytes
     }
 
@@ -80,27 +81,27 @@ impl Kind {
     pub fn stored(self) -> Stored {
         match self {
             // A number of 11 bits has a smaller rounding than one of three digits.
-            Kind::Float(2) => Stored::Digits(3),
-            Kind::Float(4) => Stored::Single,
-            Kind::Float(_) => Stored::Double,
-            Kind::Signed(_) | Kind::Unsigned(_) => Stored::Whole,
+            NumberType::Float(2) => Stored::Digits(3),
+            NumberType::Float(4) => Stored::Single,
+            NumberType::Float(_) => Stored::Double,
+            NumberType::Signed(_) | NumberType::Unsigned(_) => Stored::Whole,
         }
     }
 
     /// Reads all numbers in bytes.
-    pub fn read(self, bytes: &[u8], order: Order) -> Vec<f64> {
+    pub fn read(self, bytes: &[u8], order: ByteOrder) -> Vec<f64> {
         match self {
-            Kind::Float(2) => each(bytes, order, |it| of_half(u16::from_le_bytes(it))),
-            Kind::Float(4) => each(bytes, order, |it| f64::from(f32::from_le_bytes(it))),
-            Kind::Float(_) => each(bytes, order, f64::from_le_bytes),
-            Kind::Signed(1) => each(bytes, order, |it| f64::from(i8::from_le_bytes(it))),
-            Kind::Signed(2) => each(bytes, order, |it| f64::from(i16::from_le_bytes(it))),
-            Kind::Signed(4) => each(bytes, order, |it| f64::from(i32::from_le_bytes(it))),
-            Kind::Signed(_) => each(bytes, order, |it| i64::from_le_bytes(it) as f64),
-            Kind::Unsigned(1) => each(bytes, order, |it| f64::from(u8::from_le_bytes(it))),
-            Kind::Unsigned(2) => each(bytes, order, |it| f64::from(u16::from_le_bytes(it))),
-            Kind::Unsigned(4) => each(bytes, order, |it| f64::from(u32::from_le_bytes(it))),
-            Kind::Unsigned(_) => each(bytes, order, |it| u64::from_le_bytes(it) as f64),
+            NumberType::Float(2) => each(bytes, order, |it| of_half(u16::from_le_bytes(it))),
+            NumberType::Float(4) => each(bytes, order, |it| f64::from(f32::from_le_bytes(it))),
+            NumberType::Float(_) => each(bytes, order, f64::from_le_bytes),
+            NumberType::Signed(1) => each(bytes, order, |it| f64::from(i8::from_le_bytes(it))),
+            NumberType::Signed(2) => each(bytes, order, |it| f64::from(i16::from_le_bytes(it))),
+            NumberType::Signed(4) => each(bytes, order, |it| f64::from(i32::from_le_bytes(it))),
+            NumberType::Signed(_) => each(bytes, order, |it| i64::from_le_bytes(it) as f64),
+            NumberType::Unsigned(1) => each(bytes, order, |it| f64::from(u8::from_le_bytes(it))),
+            NumberType::Unsigned(2) => each(bytes, order, |it| f64::from(u16::from_le_bytes(it))),
+            NumberType::Unsigned(4) => each(bytes, order, |it| f64::from(u32::from_le_bytes(it))),
+            NumberType::Unsigned(_) => each(bytes, order, |it| u64::from_le_bytes(it) as f64),
         }
     }
 }
@@ -117,10 +118,10 @@ fn of_half(bits: u16) -> f64 {
     if bits >> 15 == 0 { size } else { -size }
 }
 
-fn each<const N: usize>(bytes: &[u8], order: Order, read: impl Fn([u8; N]) -> f64) -> Vec<f64> {
+fn each<const N: usize>(bytes: &[u8], order: ByteOrder, read: impl Fn([u8; N]) -> f64) -> Vec<f64> {
     let in_order = |bytes: &[u8; N]| {
         let mut bytes = *bytes;
-        if order == Order::Big {
+        if order == ByteOrder::Big {
             bytes.reverse();
         }
         read(bytes)
@@ -129,7 +130,7 @@ fn each<const N: usize>(bytes: &[u8], order: Order, read: impl Fn([u8; N]) -> f6
 }
 
 /// The number of numbers in rows; refuses a size in bytes that overflows.
-pub fn count(rows: usize, components: usize, kind: Kind) -> Result<usize, Mistake> {
+pub fn count(rows: usize, components: usize, kind: NumberType) -> Result<usize, Mistake> {
     let numbers = rows.checked_mul(components).filter(|it| it.checked_mul(kind.bytes()).is_some());
     numbers.ok_or_else(|| {
         Mistake::new(format!("{rows} times {components} numbers: no file holds as many"))

@@ -85,7 +85,7 @@ pub fn by_time(
             }
         } else if is_fixed {
             let more = array.values.len() * (count - 1);
-            wanted.take(&format!("`{}` at {count} times", array.name), more)?;
+            wanted.reserve(&format!("`{}` at {count} times", array.name), more)?;
             found[1..].iter_mut().for_each(|it| it.of_points.push(array.clone()));
             found[0].of_points.push(array);
         } else {

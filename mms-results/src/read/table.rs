@@ -26,7 +26,7 @@ pub fn is_time(name: &str) -> bool {
 }
 
 /// The columns of a table.
-struct Table {
+struct TableColumns {
     columns: Vec<Array>,
     lines: Vec<usize>,
     unread: Vec<String>,
@@ -43,7 +43,7 @@ const UTF_16: [Units; 2] = [([0xff, 0xfe], u16::from_le_bytes), ([0xfe, 0xff], u
 /// Reads a table whose columns are separated by commas, tabs, semicolons or blanks.
 pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake> {
     if let Some((_, unit)) = UTF_16.iter().find(|(mark, _)| bytes.starts_with(mark)) {
-        wanted.take("the text", bytes.len() / 8)?;
+        wanted.reserve("the text", bytes.len() / 8)?;
         let units = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
         let text: Option<String> = char::decode_utf16(units).map(Result::ok).collect();
         let is_text = |it: &String| bytes.len().is_multiple_of(2) && !it.contains('\0');
@@ -61,7 +61,7 @@ fn not_text(bytes: &[u8], at: usize) -> Mistake {
     Mistake::at(line, what)
 }
 
-fn read(text: &str, wanted: &Wanted<'_>) -> Result<Table, Mistake> {
+fn read(text: &str, wanted: &Wanted<'_>) -> Result<TableColumns, Mistake> {
     let lines = text.lines().enumerate().map(|(at, line)| (at + 1, line));
     let mut lines = lines.filter(|(_, line)| !line.trim().is_empty()).peekable();
     let (mut comment, mut time) = (None, None);
@@ -89,7 +89,7 @@ fn read(text: &str, wanted: &Wanted<'_>) -> Result<Table, Mistake> {
     };
     let mut columns = header.columns(first, separator, wanted)?;
     let read = columns.all.iter().filter(|it| it.is_stored()).count();
-    wanted.take("the table", read * memchr::memchr_iter(b'\n', text.as_bytes()).count())?;
+    wanted.reserve("the table", read * memchr::memchr_iter(b'\n', text.as_bytes()).count())?;
     let (mut rows, mut times) = (Vec::new(), Column::new(0, TIMES[0], Need::Must));
     for (line, text) in lines {
         if is_comment(text) {
@@ -124,12 +124,12 @@ pub fn block(names: Line<'_>, rows: &[Line<'_>], wanted: &Wanted<'_>) -> Result<
     let first = rows.first().map_or("", |(_, text)| text);
     let mut columns = header.columns(first, Separator::Blanks, wanted)?;
     let read = columns.all.iter().filter(|it| it.is_stored()).count();
-    wanted.take("the particles", read * rows.len())?;
+    wanted.reserve("the particles", read * rows.len())?;
     for (line, text) in rows {
         columns.push(*line, text, Separator::Blanks)?;
     }
     let lines = rows.iter().map(|(line, _)| *line).collect();
-    let Table { columns: of_points, lines, unread, units } = columns.table(lines);
+    let TableColumns { columns: of_points, lines, unread, units } = columns.table(lines);
     Ok(Snapshot { of_points, lines, unread, units, ..Snapshot::default() })
 }
 
@@ -370,7 +370,7 @@ impl Columns {
         wrong.map_or(Ok(()), Err)
     }
 
-    fn table(self, lines: Vec<usize>) -> Table {
+    fn table(self, lines: Vec<usize>) -> TableColumns {
         let Columns { all, mut unread, units, .. } = self;
         let (read, rest): (Vec<_>, Vec<_>) =
             all.into_iter().partition(|it| it.is_stored() && it.word.is_none());
@@ -382,7 +382,7 @@ impl Columns {
         let mut columns: Vec<Array> = read.into_iter().map(array).collect();
         let single = vec![false; columns.len()];
         finish(&mut columns.iter_mut().collect::<Vec<_>>(), &single);
-        Table { columns, lines, unread, units }
+        TableColumns { columns, lines, unread, units }
     }
 }
 
@@ -441,9 +441,9 @@ impl Column {
 }
 
 /// Splits a table into the snapshots of its times.
-fn by_time(mut table: Table) -> Result<Vec<Snapshot>, Mistake> {
+fn by_time(mut table: TableColumns) -> Result<Vec<Snapshot>, Mistake> {
     let Some(column) = table.columns.iter().position(|column| is_time(&column.name)) else {
-        let Table { columns: of_points, lines, unread, units } = table;
+        let TableColumns { columns: of_points, lines, unread, units } = table;
         return Ok(vec![Snapshot { of_points, lines, unread, units, ..Snapshot::default() }]);
     };
     let times = table.columns.remove(column);
@@ -482,7 +482,7 @@ fn validate_whole(groups: &[&[usize]], lines: &[usize]) -> Result<(), Mistake> {
     Err(Mistake::at(lines[lines.len() - 1], what))
 }
 
-fn at_time(table: &Table, times: &Array, rows: &[usize]) -> Snapshot {
+fn at_time(table: &TableColumns, times: &Array, rows: &[usize]) -> Snapshot {
     let value = times.values[rows[0]];
     let part = |column: &Array| Array {
         values: rows.iter().map(|&row| column.values[row]).collect(),

@@ -100,7 +100,7 @@ impl Numbers {
     /// A word, or too little memory.
     pub fn push(&mut self, text: &str, wanted: &Wanted<'_>) -> Result<(), Mistake> {
         if self.values.len().is_multiple_of(CHUNK) {
-            wanted.take("the file", CHUNK)?;
+            wanted.reserve("the file", CHUNK)?;
         }
         let expected = || Mistake::new(format!("expected a number, found `{text}`"));
         self.values.push(number(text).ok_or_else(expected)?);

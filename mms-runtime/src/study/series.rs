@@ -1,6 +1,6 @@
 //! The errors of one quantity on levels of refinement, and their common verdict.
 
-use mms_convergence::{Expected, Judgement, Sample, Sequence, observed_order};
+use mms_convergence::{ExpectedOrder, Judgement, Sample, Sequence, observed_order};
 
 use super::order::Orders;
 use super::{Errors, Level};
@@ -83,7 +83,7 @@ impl Series {
     }
 
     /// Judges every norm against an expected order; the worst decides.
-    pub fn judge(&self, expected: Expected) -> Judgement {
+    pub fn judge(&self, expected: ExpectedOrder) -> Judgement {
         let sequences = NORMS.map(|(name, norm)| (name, self.sequence(norm)));
         let norms = sequences.each_ref().map(|(name, sequence)| (*name, sequence, expected));
         Judgement::of(norms).expect("three norms")
@@ -109,7 +109,7 @@ impl Series {
 }
 
 /// Judges the levels of a study in space, in any sequence, against an expected order: see [`Series::judge`].
-pub fn judge(levels: &[Level], expected: Expected) -> Judgement {
+pub fn judge(levels: &[Level], expected: ExpectedOrder) -> Judgement {
     Series::of(levels).judge(expected)
 }
 
@@ -120,7 +120,7 @@ mod tests {
     use super::*;
     use crate::failure::{Cause, Failure};
 
-    const SECOND: Expected = Expected::new(2.0, 0.15);
+    const SECOND: ExpectedOrder = ExpectedOrder::new(2.0, 0.15);
 
     /// Points at h = 1, 1/2, 1/4, .. with these errors; linf is a multiple of them.
     fn series(errors: impl Fn(f64) -> f64, levels: i32, floor: f64) -> Series {

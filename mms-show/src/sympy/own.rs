@@ -4,7 +4,7 @@ use super::python::Renamed;
 use super::{axes, translated};
 use mms_codegen::compile::Compiled;
 use mms_spec::own::Part;
-use mms_spec::syntax::{self, Kind};
+use mms_spec::syntax::{self, NodeKind};
 use mms_spec::{BalanceLaw, BalanceSpec, Formula, Space};
 use mms_symbolic::sorted::SortedSet;
 
@@ -13,7 +13,7 @@ pub(super) fn used(compiled: &Compiled) -> Vec<String> {
     let formulas = compiled.field.balances.iter().flat_map(BalanceSpec::formulas);
     let asts = formulas.filter_map(|formula| syntax::parse(formula, &mut Vec::new()));
     let names = asts.flat_map(|ast| ast.nodes).filter_map(|node| match node.kind {
-        Kind::Name(name) => Some(name),
+        NodeKind::Name(name) => Some(name),
         _ => None,
     });
     let known = compiled.field.space.axes().iter().chain(&["t", "pi"]);

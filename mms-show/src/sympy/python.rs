@@ -1,7 +1,7 @@
 //! Translates the tree of a formula to Python, as it was typed. Nothing is resolved, derived or simplified, so that the script
 //! depends on the compiler only for its parser.
 
-use mms_spec::syntax::{Ast, Kind, Operator};
+use mms_spec::syntax::{Ast, NodeKind, Operator};
 use mms_symbolic::expr::Rational;
 use mms_symbolic::sorted::{SortedMap, SortedSet};
 
@@ -147,23 +147,23 @@ pub(super) fn python(ast: &Ast, names: &Renamed) -> String {
     pieces.pop().flatten().map(|piece| piece.exact().text).unwrap_or_default()
 }
 
-fn piece(kind: &Kind, names: &Renamed, pieces: &mut [Option<Piece>]) -> Option<Piece> {
+fn piece(kind: &NodeKind, names: &Renamed, pieces: &mut [Option<Piece>]) -> Option<Piece> {
     Some(match kind {
-        Kind::Number(number) => literal(number),
-        Kind::Name(name) => {
+        NodeKind::Number(number) => literal(number),
+        NodeKind::Name(name) => {
             Piece { text: names.name(name).into(), binding: Binding::Atom, is_plain: false }
         }
-        Kind::Negate(operand) => {
+        NodeKind::Negate(operand) => {
             let operand = pieces[*operand].take()?;
             let is_plain = operand.is_plain;
             let text = format!("-{}", operand.at_least(Binding::Sign));
             Piece { text, binding: Binding::Sign, is_plain }
         }
-        Kind::Binary(operator, left, right) => {
+        NodeKind::Binary(operator, left, right) => {
             let (left, right) = (pieces[*left].take()?, pieces[*right].take()?);
             binary(*operator, left, right)
         }
-        Kind::Call { name, arguments } => {
+        NodeKind::Call { name, arguments } => {
             let mut texts = Vec::new();
             for argument in arguments {
                 texts.push(pieces[*argument].take()?.exact());

@@ -16,14 +16,14 @@ pub struct Ast {
 #[derive(Clone, Debug)]
 pub struct Node {
     /// The kind of the node.
-    pub kind: Kind,
+    pub kind: NodeKind,
     /// The place, from its first to its last character, without parentheses around it.
     pub span: Span,
 }
 
 /// The kind of a node; operands are indices into [`Ast::nodes`].
 #[derive(Clone, Debug, PartialEq)]
-pub enum Kind {
+pub enum NodeKind {
     /// An exact number.
     Number(RBig),
     /// A name, not yet looked up.

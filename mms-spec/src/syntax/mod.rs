@@ -12,7 +12,7 @@ mod lexer;
 mod number;
 mod parser;
 
-pub use ast::{Ast, Kind, Node, Operator};
+pub use ast::{Ast, Node, NodeKind, Operator};
 pub use number::{MAX_DIGITS, MAX_EXPONENT};
 pub use parser::{MAX_DEPTH, MAX_NODES, parse};
 

@@ -7,7 +7,7 @@ use std::iter::Peekable;
 use std::ops::Range;
 use std::slice;
 
-use super::ast::{Ast, Kind, Node, Operator};
+use super::ast::{Ast, Node, NodeKind, Operator};
 use super::lexer::{Token, TokenKind, tokens};
 use crate::diagnostic::{Diagnostic, quoted};
 use crate::formula::Formula;
@@ -39,7 +39,7 @@ pub fn parse(formula: &Formula, diagnostics: &mut Vec<Diagnostic>) -> Option<Ast
 }
 
 /// A mistake ends the parse: interpreting the text after it would be guesswork.
-type Outcome<T = ()> = Result<T, Box<Diagnostic>>;
+type ParseResult<T = ()> = Result<T, Box<Diagnostic>>;
 
 /// The tokens ahead.
 type Rest<'a> = Peekable<slice::Iter<'a, Token>>;
@@ -94,7 +94,7 @@ struct Parser<'a> {
 }
 
 impl Parser<'_> {
-    fn run(&mut self, tokens: &[Token]) -> Outcome {
+    fn run(&mut self, tokens: &[Token]) -> ParseResult {
         let mut rest = tokens.iter().peekable();
         let mut needs_operand = true;
         while let Some(token) = rest.next() {
@@ -105,18 +105,18 @@ impl Parser<'_> {
     }
 
     /// Reads a token where an operand must begin. Returns whether one must still begin.
-    fn operand(&mut self, token: &Token, rest: &mut Rest<'_>) -> Outcome<bool> {
+    fn operand(&mut self, token: &Token, rest: &mut Rest<'_>) -> ParseResult<bool> {
         let range = token.range.clone();
         match &token.kind {
             TokenKind::Number(value) => {
-                self.leaf(Kind::Number(value.clone()), range).map(|()| false)
+                self.leaf(NodeKind::Number(value.clone()), range).map(|()| false)
             }
             TokenKind::Name => match rest.next_if(|next| next.kind == TokenKind::Open) {
                 Some(open) => {
                     let (open, first) = (open.range.clone(), self.operands.len());
                     self.wait(Waiting::Call { name: range, open, first }).map(|()| true)
                 }
-                None => self.leaf(Kind::Name(self.text(range.clone())), range).map(|()| false),
+                None => self.leaf(NodeKind::Name(self.text(range.clone())), range).map(|()| false),
             },
             TokenKind::Operator(Operator::Subtract) => {
                 self.wait(Waiting::Negate(range.start)).map(|()| true)
@@ -128,7 +128,7 @@ impl Parser<'_> {
     }
 
     /// Reads a token after an operand. Returns whether an operand must follow it.
-    fn operator(&mut self, token: &Token) -> Outcome<bool> {
+    fn operator(&mut self, token: &Token) -> ParseResult<bool> {
         let range = token.range.clone();
         match &token.kind {
             TokenKind::Operator(operator) => {
@@ -152,13 +152,13 @@ impl Parser<'_> {
         Diagnostic::error(self.formula.span_of(range), message)
     }
 
-    fn leaf(&mut self, kind: Kind, range: Range<usize>) -> Outcome {
+    fn leaf(&mut self, kind: NodeKind, range: Range<usize>) -> ParseResult {
         let span = self.formula.span_of(range.clone());
         self.push(kind, span, range)
     }
 
     /// Adds a node; `range` is the text that an operator on it covers.
-    fn push(&mut self, kind: Kind, span: Span, range: Range<usize>) -> Outcome {
+    fn push(&mut self, kind: NodeKind, span: Span, range: Range<usize>) -> ParseResult {
         if self.nodes.len() >= MAX_NODES {
             let message = format!("this expression has more than {MAX_NODES} terms");
             return Err(Box::new(
@@ -172,7 +172,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    fn wait(&mut self, waiting: Waiting) -> Outcome {
+    fn wait(&mut self, waiting: Waiting) -> ParseResult {
         if self.waiting.len() < MAX_DEPTH {
             self.waiting.push(waiting);
             return Ok(());
@@ -193,14 +193,14 @@ impl Parser<'_> {
     }
 
     /// Builds the nodes of all operators on top of the stack that bind at least this tightly.
-    fn reduce(&mut self, least: u8) -> Outcome {
+    fn reduce(&mut self, least: u8) -> ParseResult {
         while let Some(waiting) = self.waiting.pop_if(|waiting| waiting.strength() >= least) {
             let Some(right) = self.operands.pop() else { break };
             let (kind, range) = match waiting {
-                Waiting::Negate(start) => (Kind::Negate(right.node), start..right.range.end),
+                Waiting::Negate(start) => (NodeKind::Negate(right.node), start..right.range.end),
                 Waiting::Binary(operator) => {
                     let Some(left) = self.operands.pop() else { break };
-                    let kind = Kind::Binary(operator, left.node, right.node);
+                    let kind = NodeKind::Binary(operator, left.node, right.node);
                     (kind, left.range.start..right.range.end)
                 }
                 Waiting::Group(_) | Waiting::Call { .. } => break,
@@ -216,7 +216,7 @@ impl Parser<'_> {
         *first == self.operands.len()
     }
 
-    fn close(&mut self, range: Range<usize>) -> Outcome {
+    fn close(&mut self, range: Range<usize>) -> ParseResult {
         self.reduce(1)?;
         match self.waiting.pop() {
             Some(Waiting::Group(open)) => {
@@ -229,7 +229,7 @@ impl Parser<'_> {
                 let arguments = self.operands.drain(first..).map(|operand| operand.node).collect();
                 let span = self.formula.span_of(name.clone());
                 let called = Spanned { value: self.text(name.clone()), span };
-                self.leaf(Kind::Call { name: called, arguments }, name.start..range.end)
+                self.leaf(NodeKind::Call { name: called, arguments }, name.start..range.end)
             }
             _ => Err(Box::new(
                 self.error(range, "this `)` closes nothing").label("there is no `(` for it"),
@@ -237,7 +237,7 @@ impl Parser<'_> {
         }
     }
 
-    fn comma(&mut self, range: Range<usize>) -> Outcome {
+    fn comma(&mut self, range: Range<usize>) -> ParseResult {
         self.reduce(1)?;
         match self.waiting.last() {
             Some(Waiting::Call { .. }) => Ok(()),
@@ -249,7 +249,7 @@ impl Parser<'_> {
         }
     }
 
-    fn end(&mut self) -> Outcome {
+    fn end(&mut self) -> ParseResult {
         self.reduce(1)?;
         match self.waiting.last() {
             Some(Waiting::Group(open) | Waiting::Call { open, .. }) => Err(Box::new(

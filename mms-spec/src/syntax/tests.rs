@@ -27,10 +27,10 @@ fn parsed(text: &str) -> String {
 
 fn shown(ast: &Ast, node: usize) -> String {
     match &ast.nodes[node].kind {
-        Kind::Number(value) => value.to_string(),
-        Kind::Name(name) => name.clone(),
-        Kind::Negate(operand) => format!("(-{})", shown(ast, *operand)),
-        Kind::Binary(operator, left, right) => {
+        NodeKind::Number(value) => value.to_string(),
+        NodeKind::Name(name) => name.clone(),
+        NodeKind::Negate(operand) => format!("(-{})", shown(ast, *operand)),
+        NodeKind::Binary(operator, left, right) => {
             let sign = match operator {
                 Operator::Add => '+',
                 Operator::Subtract => '-',
@@ -40,7 +40,7 @@ fn shown(ast: &Ast, node: usize) -> String {
             };
             format!("({}{sign}{})", shown(ast, *left), shown(ast, *right))
         }
-        Kind::Call { name, arguments } => {
+        NodeKind::Call { name, arguments } => {
             let arguments: Vec<_> = arguments.iter().map(|node| shown(ast, *node)).collect();
             format!("{}({})", name.value, arguments.join(","))
         }
@@ -168,10 +168,10 @@ fn operands_stand_before_their_node() {
     let ast = parse(&formula_in(raw, id), &mut Vec::new()).expect("a tree");
     for (index, node) in ast.nodes.iter().enumerate() {
         let before = match &node.kind {
-            Kind::Number(_) | Kind::Name(_) => true,
-            Kind::Negate(operand) => *operand < index,
-            Kind::Binary(_, left, right) => *left < index && *right < index,
-            Kind::Call { arguments, .. } => arguments.iter().all(|operand| *operand < index),
+            NodeKind::Number(_) | NodeKind::Name(_) => true,
+            NodeKind::Negate(operand) => *operand < index,
+            NodeKind::Binary(_, left, right) => *left < index && *right < index,
+            NodeKind::Call { arguments, .. } => arguments.iter().all(|operand| *operand < index),
         };
         assert!(before, "{index}: {node:?}");
     }

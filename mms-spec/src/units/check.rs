@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::dimension::Dimension;
-use super::infer::{Expected, Formulas, Measure};
+use super::infer::{ExpectedDimension, Formulas, Measure};
 use super::parse::Unit;
 use super::system;
 use crate::balance::{BalanceLaw, BalanceSpec};
@@ -18,7 +18,7 @@ use crate::rigid::RigidSpec;
 use crate::source::{Sources, Spanned};
 use crate::space::Space;
 use crate::symbols::{LetSpec, ParameterSpec};
-use crate::syntax::{self, Ast, Kind};
+use crate::syntax::{self, Ast, NodeKind};
 
 /// The consequence of a wrong density or modulus.
 const FORCING: Option<&str> = Some("b = a - Div P/rho0 would not be an acceleration");
@@ -164,7 +164,7 @@ impl Checker<'_> {
         message: impl Into<String>,
         consequence: Option<&str>,
     ) {
-        let expected = Expected { dimension, message: message.into(), consequence };
+        let expected = ExpectedDimension { dimension, message: message.into(), consequence };
         for formula in formulas {
             let Some(ast) = self.parsed(formula) else { continue };
             self.formulas.expect(&ast, &expected, &mut self.diagnostics);
@@ -188,7 +188,8 @@ impl Checker<'_> {
     fn value(&mut self, formula: &Formula, dimension: &Dimension, message: String) {
         let Some(ast) = self.parsed(formula) else { return };
         if !is_numeric(&ast) {
-            let expected = Expected { dimension: dimension.clone(), message, consequence: None };
+            let expected =
+                ExpectedDimension { dimension: dimension.clone(), message, consequence: None };
             self.formulas.expect(&ast, &expected, &mut self.diagnostics);
         }
     }
@@ -281,7 +282,7 @@ impl Checker<'_> {
         let Some(ast) = self.parsed(formula) else { return };
         let is_direction = |by: &str| space.directions().contains(&by);
         for node in &ast.nodes {
-            let Kind::Name(name) = &node.kind else { continue };
+            let NodeKind::Name(name) = &node.kind else { continue };
             if self.formulas.get(name).is_some() {
                 continue;
             }
@@ -372,5 +373,5 @@ fn velocity() -> Dimension {
 
 /// Whether a formula has no names except pi: a number in any form.
 fn is_numeric(ast: &Ast) -> bool {
-    ast.nodes.iter().all(|node| !matches!(&node.kind, Kind::Name(name) if name != "pi"))
+    ast.nodes.iter().all(|node| !matches!(&node.kind, NodeKind::Name(name) if name != "pi"))
 }

@@ -17,7 +17,7 @@ use super::dimension::{Dimension, bits};
 use super::message;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
-use crate::syntax::{Ast, Kind, Operator};
+use crate::syntax::{Ast, NodeKind, Operator};
 use dashu_ratio::RBig as Rational;
 
 /// The longest number that is tracked, so that no formula takes long.
@@ -59,7 +59,7 @@ impl Measure {
 
 /// The required dimension of a formula, and the message for a mistake.
 #[derive(Clone, Debug)]
-pub struct Expected<'a> {
+pub struct ExpectedDimension<'a> {
     /// The dimension.
     pub dimension: Dimension,
     /// The mistake in one sentence, such as "the displacement must be a length".
@@ -97,7 +97,12 @@ impl Formulas {
 
     /// Checks that a formula has the required dimension. Each term of a sum is checked on its own, so that the message can name
     /// the term.
-    pub fn expect(&self, ast: &Ast, expected: &Expected<'_>, diagnostics: &mut Vec<Diagnostic>) {
+    pub fn expect(
+        &self,
+        ast: &Ast,
+        expected: &ExpectedDimension<'_>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
         let sums = outer_sums(ast);
         let measures = self.measures(ast, &sums, diagnostics);
         for (term, measure) in measures.iter().enumerate() {
@@ -131,8 +136,8 @@ fn outer_sums(ast: &Ast) -> Vec<bool> {
     let mut waiting: Vec<usize> = ast.nodes.len().checked_sub(1).into_iter().collect();
     while let Some(index) = waiting.pop() {
         match ast.nodes[index].kind {
-            Kind::Negate(operand) => waiting.push(operand),
-            Kind::Binary(Operator::Add | Operator::Subtract, left, right) => {
+            NodeKind::Negate(operand) => waiting.push(operand),
+            NodeKind::Binary(Operator::Add | Operator::Subtract, left, right) => {
                 waiting.extend([left, right]);
             }
             _ => continue,
@@ -151,15 +156,15 @@ struct Inference<'a> {
 }
 
 impl Inference<'_> {
-    fn node(&mut self, kind: &Kind) -> Option<Measure> {
+    fn node(&mut self, kind: &NodeKind) -> Option<Measure> {
         match kind {
-            Kind::Number(number) => Some(Measure::number(number.clone())),
-            Kind::Name(name) => self.names.get(name).cloned(),
-            Kind::Negate(operand) => {
+            NodeKind::Number(number) => Some(Measure::number(number.clone())),
+            NodeKind::Name(name) => self.names.get(name).cloned(),
+            NodeKind::Negate(operand) => {
                 let value = self.values[*operand].take()?;
                 Some(Measure { number: value.number.map(|number| -number), ..value })
             }
-            Kind::Binary(operator, left, right) => {
+            NodeKind::Binary(operator, left, right) => {
                 let (a, b) = (self.values[*left].take(), self.values[*right].take());
                 let (a, b) = (a?, b?);
                 match operator {
@@ -170,7 +175,7 @@ impl Inference<'_> {
                     Operator::Power => self.power(a, b, [*left, *right]),
                 }
             }
-            Kind::Call { name, arguments } => self.call(&name.value, arguments),
+            NodeKind::Call { name, arguments } => self.call(&name.value, arguments),
         }
     }
 

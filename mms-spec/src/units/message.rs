@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 
 use super::dimension::Dimension;
-use super::infer::{Expected, Formulas, Measure};
+use super::infer::{ExpectedDimension, Formulas, Measure};
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
-use crate::syntax::{Ast, Kind, Operator};
+use crate::syntax::{Ast, NodeKind, Operator};
 use dashu_ratio::RBig as Rational;
 
 /// The largest number of names in a term that are explained one by one.
@@ -18,7 +18,7 @@ pub fn term(
     ast: &Ast,
     term: usize,
     found: &Measure,
-    expected: &Expected<'_>,
+    expected: &ExpectedDimension<'_>,
 ) -> Diagnostic {
     let found = shown(found);
     let label = format!("this is {}, expected {}", in_words(found), in_words(&expected.dimension));
@@ -79,14 +79,14 @@ pub fn in_words(dimension: &Dimension) -> String {
 
 /// The units of the names in a part of a formula, if it is more than a name and some names have units.
 fn explanation(names: &Formulas, ast: &Ast, root: usize) -> Option<String> {
-    if matches!(ast.nodes[root].kind, Kind::Name(_)) {
+    if matches!(ast.nodes[root].kind, NodeKind::Name(_)) {
         return None;
     }
     let mut seen = BTreeSet::new();
     let mut units = Vec::new();
     let mut has_unit = false;
     for node in &ast.nodes[first_node(ast, root)..=root] {
-        let Kind::Name(name) = &node.kind else { continue };
+        let NodeKind::Name(name) = &node.kind else { continue };
         let Some(measure) = names.get(name).filter(|_| name != "pi") else { continue };
         if seen.insert(name) && measure.number.is_none() {
             has_unit |= !shown(measure).is_none();
@@ -101,12 +101,12 @@ fn first_node(ast: &Ast, root: usize) -> usize {
     let mut first = root;
     loop {
         first = match &ast.nodes[first].kind {
-            Kind::Negate(operand) | Kind::Binary(_, operand, _) => *operand,
-            Kind::Call { arguments, .. } => match arguments.first() {
+            NodeKind::Negate(operand) | NodeKind::Binary(_, operand, _) => *operand,
+            NodeKind::Call { arguments, .. } => match arguments.first() {
                 Some(argument) => *argument,
                 None => return first,
             },
-            Kind::Number(_) | Kind::Name(_) => return first,
+            NodeKind::Number(_) | NodeKind::Name(_) => return first,
         };
     }
 }
@@ -117,7 +117,7 @@ fn nameless(ast: &Ast, term: usize, found: &Dimension, expected: &Dimension) -> 
     while let Some((node, divides)) = waiting.pop() {
         match &ast.nodes[node].kind {
             // A whole number beside values with units is usually a plain number.
-            Kind::Number(number) if !number.is_int() || found.is_none() => {
+            NodeKind::Number(number) if !number.is_int() || found.is_none() => {
                 let unit = if divides { found.over(expected) } else { expected.over(found) };
                 return Some(format!(
                     "give `{}` a name with the unit {} under [parameters], or leave out all units",
@@ -125,11 +125,11 @@ fn nameless(ast: &Ast, term: usize, found: &Dimension, expected: &Dimension) -> 
                     unit?
                 ));
             }
-            Kind::Negate(operand) => waiting.push((*operand, divides)),
-            Kind::Binary(Operator::Multiply, left, right) => {
+            NodeKind::Negate(operand) => waiting.push((*operand, divides)),
+            NodeKind::Binary(Operator::Multiply, left, right) => {
                 waiting.extend([(*right, divides), (*left, divides)]);
             }
-            Kind::Binary(Operator::Divide, left, right) => {
+            NodeKind::Binary(Operator::Divide, left, right) => {
                 waiting.extend([(*right, !divides), (*left, divides)]);
             }
             _ => {}

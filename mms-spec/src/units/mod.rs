@@ -18,5 +18,5 @@ pub mod system;
 
 pub use check::check;
 pub use dimension::{BASE, Dimension};
-pub use infer::{Expected, Formulas, Measure};
+pub use infer::{ExpectedDimension, Formulas, Measure};
 pub use parse::{Symbol, Unit};

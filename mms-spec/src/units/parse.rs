@@ -5,7 +5,7 @@ use super::known::{self, Size};
 use crate::diagnostic::{Diagnostic, quoted};
 use crate::formula::Formula;
 use crate::source::{Sources, Span, Spanned};
-use crate::syntax::{self, Ast, Kind, Operator};
+use crate::syntax::{self, Ast, NodeKind, Operator};
 use dashu_ratio::RBig as Rational;
 
 /// A unit such as `kg/m^3`: products, quotients and powers of symbols.
@@ -83,14 +83,14 @@ impl Reader<'_> {
         let mut symbols = Vec::new();
         for node in &self.ast.nodes {
             let part = match &node.kind {
-                Kind::Number(number) => Some(Part::Number(number.clone())),
-                Kind::Name(name) => self.symbol(name, node.span, &mut symbols),
-                Kind::Negate(operand) => match parts[*operand].take() {
+                NodeKind::Number(number) => Some(Part::Number(number.clone())),
+                NodeKind::Name(name) => self.symbol(name, node.span, &mut symbols),
+                NodeKind::Negate(operand) => match parts[*operand].take() {
                     Some(Part::Number(number)) => Some(Part::Number(-number)),
                     Some(_) => self.refuse(node.span, "a unit has no sign"),
                     None => None,
                 },
-                Kind::Binary(operator, left, right) => {
+                NodeKind::Binary(operator, left, right) => {
                     let (a, b) = (parts[*left].take(), parts[*right].take());
                     let places = [*left, *right].map(|index| self.ast.nodes[index].span);
                     match a.zip(b) {
@@ -98,7 +98,7 @@ impl Reader<'_> {
                         None => None,
                     }
                 }
-                Kind::Call { name, .. } => self.refuse(name.span, "a unit has no functions"),
+                NodeKind::Call { name, .. } => self.refuse(name.span, "a unit has no functions"),
             };
             parts.push(part);
         }

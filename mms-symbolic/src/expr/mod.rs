@@ -284,7 +284,7 @@ impl Graph {
     }
 
     /// Runs `work`. If it reaches the limit, restores the graph; the caller must recognise this from the result.
-    pub fn unless_full<R>(&mut self, work: impl FnOnce(&mut Self) -> R) -> R {
+    pub fn restoring_if_full<R>(&mut self, work: impl FnOnce(&mut Self) -> R) -> R {
         let before = self.mark();
         let found = work(self);
         if self.exhausted && !before.exhausted {
@@ -294,7 +294,7 @@ impl Graph {
     }
 
     /// Runs `work` with a raised limit, and then removes the nodes that it made.
-    pub fn aside<R>(&mut self, work: impl FnOnce(&mut Self) -> R) -> R {
+    pub fn with_temporary_nodes<R>(&mut self, work: impl FnOnce(&mut Self) -> R) -> R {
         let (before, limit) = (self.mark(), self.limit);
         self.make_room();
         let found = work(self);

@@ -1,6 +1,6 @@
 //! The likely causes of a study that does not pass, each with the option that avoids it.
 
-use mms_convergence::{Expected, Verdict};
+use mms_convergence::{ExpectedOrder, Verdict};
 use mms_exact::Input;
 use mms_judge::next::{Words, command};
 use mms_options::field::Variant;
@@ -37,7 +37,7 @@ pub struct Ended<'a> {
     /// The levels, from coarse to fine.
     pub levels: &'a [Result<Run, Refused>],
     /// The expected order.
-    pub expected: Expected,
+    pub expected: ExpectedOrder,
     /// The verdict.
     pub verdict: Verdict,
     /// The words of the command.

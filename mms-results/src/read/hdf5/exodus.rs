@@ -134,7 +134,7 @@ fn cells(file: &File<'_>, nodes: usize) -> Result<(Cells, Vec<(usize, usize)>), 
             ))
         })?;
         let points = file.positions(&path)?;
-        file.wanted.take(&format!("`{path}`"), 2 * (points.len() / size))?;
+        file.wanted.reserve(&format!("`{path}`"), 2 * (points.len() / size))?;
         for element in points.chunks_exact(size) {
             for at in 0..size {
                 let from = if size >= 20 && at >= 12 { HEX[at - 12] } else { at };

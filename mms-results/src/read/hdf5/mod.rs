@@ -8,7 +8,7 @@ use std::borrow::Cow;
 
 use mms_hdf5::{Fault, Set, Store, Type, Value};
 
-use super::numbers::{Kind, Order, positions};
+use super::numbers::{ByteOrder, NumberType, positions};
 use crate::wanted::{Need, Wanted};
 use crate::{Array, Mistake, Snapshot, Time};
 
@@ -28,7 +28,7 @@ pub struct File<'a> {
 pub fn parse(bytes: Cow<'_, [u8]>, wanted: &Wanted<'_>) -> Result<Vec<Snapshot>, Mistake> {
     let is_matlab = bytes.starts_with(MATLAB);
     let copied = if let Cow::Borrowed(bytes) = bytes { bytes.len() } else { 0 };
-    wanted.beside(copied, || {
+    wanted.with_reserved(copied, || {
         let file = File::open(bytes.into_owned(), wanted)?;
         if exodus::is_exodus(&file) {
             exodus::parse(&file)
@@ -78,7 +78,7 @@ impl<'a> File<'a> {
     /// Reserves memory for an array. If the file cannot contain the array, reserves none, and reading it fails later.
     fn take(&self, set: &Set) -> Result<(), Mistake> {
         let numbers = set.count().filter(|it| *it as u64 <= self.store.left());
-        self.wanted.take(&format!("`{}`", set.path), numbers.unwrap_or(0))
+        self.wanted.reserve(&format!("`{}`", set.path), numbers.unwrap_or(0))
     }
 
     /// Makes an array from its bytes.
@@ -148,7 +148,7 @@ impl<'a> File<'a> {
         let numbers: usize = arrays.map(|it| it.values.len()).sum();
         let numbers = numbers + whole.cells.points.len() + 2 * whole.cells.len();
         let more = times.len().saturating_sub(1);
-        self.wanted.take("the mesh at each time", numbers.saturating_mul(more))?;
+        self.wanted.reserve("the mesh at each time", numbers.saturating_mul(more))?;
         if times.is_empty() {
             return Ok(vec![whole]);
         }
@@ -157,17 +157,17 @@ impl<'a> File<'a> {
 }
 
 /// The binary form of numbers of a type; `None` if it is not numeric.
-fn kind(found: Type) -> Option<Kind> {
+fn kind(found: Type) -> Option<NumberType> {
     match found {
-        Type::Float(bytes) => Some(Kind::Float(bytes)),
-        Type::Signed(bytes) => Some(Kind::Signed(bytes)),
-        Type::Unsigned(bytes) => Some(Kind::Unsigned(bytes)),
+        Type::Float(bytes) => Some(NumberType::Float(bytes)),
+        Type::Signed(bytes) => Some(NumberType::Signed(bytes)),
+        Type::Unsigned(bytes) => Some(NumberType::Unsigned(bytes)),
         Type::Words | Type::Other => None,
     }
 }
 
-fn order(is_big: bool) -> Order {
-    if is_big { Order::Big } else { Order::Little }
+fn order(is_big: bool) -> ByteOrder {
+    if is_big { ByteOrder::Big } else { ByteOrder::Little }
 }
 
 /// Splits an array with numbers for some times one after the other into one array per time.

@@ -238,13 +238,13 @@ impl<'a> Grid<'a> {
             for (it, begin) in self.connected.iter().zip(&mut cells) {
                 it.add(first.saturating_add(at), begin, &mut piece.cells)?;
             }
-            piece.cells.hold(rows)?;
+            piece.cells.validate(rows)?;
             let count = piece.cells.len();
             piece.of_points = cut(&self.of_points, &mut begins[0], rows)?;
             piece.of_cells = cut(&self.of_cells, &mut begins[1], count)?;
             let arrays = piece.points.iter().chain(&piece.of_points).chain(&piece.of_cells);
             let numbers: usize = arrays.map(|it| it.values.len()).sum();
-            self.file.wanted.take("a step", numbers + piece.cells.points.len() + 2 * count)?;
+            self.file.wanted.reserve("a step", numbers + piece.cells.points.len() + 2 * count)?;
             pieces.push(piece);
         }
         Snapshot::join(pieces)
@@ -308,7 +308,7 @@ fn image(file: &File<'_>, steps: &Steps<'_>) -> Result<Vec<Snapshot>, Mistake> {
     if rows == 0 || rows as u64 > file.store.left() / 8 {
         return Err(Mistake::new(format!("{rows} points: the file has other numbers of them")));
     }
-    file.wanted.take("the points of the image", times(rows, 3 + 10))?;
+    file.wanted.reserve("the points of the image", times(rows, 3 + 10))?;
     let at = |axis: usize, index: usize| spacing[axis] * (extent[2 * axis] + index as f64);
     let place = |row: usize| {
         let [i, j] = [row % size[0], row / size[0] % size[1]];

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use roxmltree::Node;
 
-use super::super::numbers::{Kind, Order, count};
+use super::super::numbers::{ByteOrder, NumberType, count};
 use super::super::text::{Style, finish, number};
 use super::super::xml::{at, attribute, child};
 use super::base64::Encoded;
@@ -13,9 +13,9 @@ use crate::{Array, Mistake, Snapshot, Stored};
 
 /// The format of the numbers of a file.
 pub struct Format<'a> {
-    order: Order,
+    order: ByteOrder,
     /// The type of the lengths before arrays.
-    header: Kind,
+    header: NumberType,
     compressor: Option<Compressor>,
     appended: Option<Encoded<'a>>,
     pub wanted: &'a Wanted<'a>,
@@ -61,12 +61,12 @@ impl<'a> Format<'a> {
         wanted: &'a Wanted<'a>,
     ) -> Result<Self, Mistake> {
         let order = match root.attribute("byte_order") {
-            Some("BigEndian") => Order::Big,
-            _ => Order::Little,
+            Some("BigEndian") => ByteOrder::Big,
+            _ => ByteOrder::Little,
         };
         let header = match root.attribute("header_type") {
-            Some("UInt64") => Kind::Unsigned(8),
-            None | Some("UInt32") => Kind::Unsigned(4),
+            Some("UInt64") => NumberType::Unsigned(8),
+            None | Some("UInt32") => NumberType::Unsigned(4),
             Some(other) => {
                 return Err(at(root, format!("header_type `{other}`: expected UInt32 or UInt64")));
             }
@@ -146,7 +146,7 @@ impl Arrays {
                 (Need::No | Need::Sound, _) | (_, Some("String")) => {
                     self.unread.push(name.to_owned());
                 }
-                (Need::Numbers, kind) if kind.and_then(Kind::of_xml).is_none() => {
+                (Need::Numbers, kind) if kind.and_then(NumberType::of_xml).is_none() => {
                     self.unread.push(name.to_owned());
                 }
                 _ => self.read(node, Some(rows), format)?,
@@ -163,7 +163,7 @@ impl Arrays {
         format: &Format<'_>,
     ) -> Result<(), Mistake> {
         let kind = node.attribute("type").unwrap_or("");
-        let kind = Kind::of_xml(kind).ok_or_else(|| {
+        let kind = NumberType::of_xml(kind).ok_or_else(|| {
             at(node, format!("type `{kind}`: expected one such as Float64 or Int32"))
         })?;
         let components = components(node)?;
@@ -206,7 +206,7 @@ impl Arrays {
         let name_of = |at: usize| node.attribute(&*format!("ComponentName{at}")).map(str::to_owned);
         let component_names = (0..components).map_while(name_of).collect();
         self.all.push(Array { name, components, values, stored, component_names });
-        self.single.push(kind == Kind::Float(4));
+        self.single.push(kind == NumberType::Float(4));
         Ok(())
     }
 
@@ -250,11 +250,11 @@ impl Declared<'_> {
 
     /// Reserves memory for the array.
     fn take(&self, numbers: usize) -> Result<(), Mistake> {
-        self.format.wanted.take("it", numbers)
+        self.format.wanted.reserve("it", numbers)
     }
 
     /// Reads the numbers of an array in text.
-    fn ascii(&self, node: Node<'_, '_>, kind: Kind) -> Result<(Vec<f64>, Stored), Mistake> {
+    fn ascii(&self, node: Node<'_, '_>, kind: NumberType) -> Result<(Vec<f64>, Stored), Mistake> {
         let text = node.text().unwrap_or("");
         let most = self.numbers.filter(|_| !self.is_open).unwrap_or(usize::MAX);
         self.take(most.min(text.len() / 2))?;
@@ -267,7 +267,7 @@ impl Declared<'_> {
         Ok((values, if kind.stored() == Stored::Whole { Stored::Whole } else { style.stored() }))
     }
 
-    fn appended_at(&self, offset: usize, kind: Kind) -> Result<(Vec<f64>, Stored), Mistake> {
+    fn appended_at(&self, offset: usize, kind: NumberType) -> Result<(Vec<f64>, Stored), Mistake> {
         let beyond = || Mistake::new(format!("offset {offset}: beyond the appended data"));
         let encoded = match self.format.appended.as_ref().ok_or_else(beyond)? {
             Encoded::Raw(bytes) => Encoded::Raw(bytes.get(offset..).ok_or_else(beyond)?),
@@ -278,13 +278,17 @@ impl Declared<'_> {
         self.decode(encoded, kind)
     }
 
-    fn decode(&self, mut encoded: Encoded<'_>, kind: Kind) -> Result<(Vec<f64>, Stored), Mistake> {
+    fn decode(
+        &self,
+        mut encoded: Encoded<'_>,
+        kind: NumberType,
+    ) -> Result<(Vec<f64>, Stored), Mistake> {
         let format = self.format;
         let bytes = match format.compressor {
             Some(compressor) => Cow::Owned(self.inflate(&mut encoded, kind, compressor)?),
             None => {
                 let length = encoded.integer(format.header, format.order)?;
-                self.hold(length, kind)?;
+                self.reserve_declared(length, kind)?;
                 encoded.take(length)?
             }
         };
@@ -295,7 +299,7 @@ impl Declared<'_> {
     }
 
     /// Refuses bytes if their number is not the declared one, or there is not enough memory.
-    fn hold(&self, bytes: usize, kind: Kind) -> Result<(), Mistake> {
+    fn reserve_declared(&self, bytes: usize, kind: NumberType) -> Result<(), Mistake> {
         if !self.fits(bytes / kind.bytes()) {
             let expected = self.numbers.unwrap_or(0).saturating_mul(kind.bytes());
             return Err(Mistake::new(format!("{bytes} bytes of numbers, and expected {expected}")));
@@ -308,14 +312,14 @@ impl Declared<'_> {
     fn inflate(
         &self,
         encoded: &mut Encoded<'_>,
-        kind: Kind,
+        kind: NumberType,
         compressor: Compressor,
     ) -> Result<Vec<u8>, Mistake> {
         let Format { header, order, .. } = *self.format;
         let mut integer = || encoded.integer(header, order);
         let [blocks, length, last] = [integer()?, integer()?, integer()?];
         let before = if last > 0 { blocks.saturating_sub(1) } else { blocks };
-        self.hold(before.saturating_mul(length).saturating_add(last), kind)?;
+        self.reserve_declared(before.saturating_mul(length).saturating_add(last), kind)?;
         let table = encoded.take(blocks.saturating_mul(header.bytes()))?;
         let mut bytes = Vec::new();
         for (block, compressed) in header.read(&table, order).into_iter().enumerate() {

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
-use super::super::numbers::{Kind, Order};
+use super::super::numbers::{ByteOrder, NumberType};
 use crate::Mistake;
 
 /// Bytes that are consumed from the front.
@@ -44,7 +44,7 @@ impl<'a> Encoded<'a> {
     }
 
     /// Consumes the next unsigned integer.
-    pub fn integer(&mut self, kind: Kind, order: Order) -> Result<usize, Mistake> {
+    pub fn integer(&mut self, kind: NumberType, order: ByteOrder) -> Result<usize, Mistake> {
         let values = kind.read(&self.take(kind.bytes())?, order);
         // A number that is rounded here is larger than any file.
         Ok(values[0] as usize)

@@ -1,6 +1,6 @@
 //! Reads words, numbers and arrays of a file of legacy VTK from a position on.
 
-use super::super::numbers::{Kind, Order, count, positions};
+use super::super::numbers::{ByteOrder, NumberType, count, positions};
 use super::super::text::{Style, number};
 use crate::wanted::Wanted;
 use crate::{Array, Mistake, Stored};
@@ -65,9 +65,9 @@ impl<'a> Cursor<'a> {
         word.parse().map_err(|_| Mistake::new(format!("expected a whole number, found `{word}`")))
     }
 
-    pub fn kind(&mut self) -> Result<Kind, Mistake> {
+    pub fn kind(&mut self) -> Result<NumberType, Mistake> {
         let word = self.needed("a type")?;
-        let kind = Kind::of_legacy(&word.to_ascii_lowercase());
+        let kind = NumberType::of_legacy(&word.to_ascii_lowercase());
         kind.ok_or_else(|| Mistake::new(format!("expected a type such as double, found `{word}`")))
     }
 
@@ -77,11 +77,11 @@ impl<'a> Cursor<'a> {
         name: &str,
         rows: usize,
         components: usize,
-        kind: Kind,
+        kind: NumberType,
     ) -> Result<Array, Mistake> {
         let numbers = count(rows, components.max(1), kind)?;
         // A number has at least one byte, and a separator.
-        self.wanted.take(&format!("`{name}`"), numbers.min(self.rest().len()))?;
+        self.wanted.reserve(&format!("`{name}`"), numbers.min(self.rest().len()))?;
         let (values, stored) = match self.is_binary {
             true => (self.binary(numbers, kind)?, kind.stored()),
             false => self.ascii(numbers, kind)?,
@@ -95,11 +95,11 @@ impl<'a> Cursor<'a> {
         })
     }
 
-    pub fn binary(&mut self, numbers: usize, kind: Kind) -> Result<Vec<f64>, Mistake> {
-        Ok(kind.read(self.bytes_of(numbers, kind)?, Order::Big))
+    pub fn binary(&mut self, numbers: usize, kind: NumberType) -> Result<Vec<f64>, Mistake> {
+        Ok(kind.read(self.bytes_of(numbers, kind)?, ByteOrder::Big))
     }
 
-    pub fn bytes_of(&mut self, numbers: usize, kind: Kind) -> Result<&'a [u8], Mistake> {
+    pub fn bytes_of(&mut self, numbers: usize, kind: NumberType) -> Result<&'a [u8], Mistake> {
         self.line();
         let bytes = self.rest().get(..numbers * kind.bytes());
         let bytes =
@@ -109,7 +109,12 @@ impl<'a> Cursor<'a> {
     }
 
     /// Skips an array that is not read.
-    pub fn pass(&mut self, rows: usize, components: usize, kind: Kind) -> Result<(), Mistake> {
+    pub fn pass(
+        &mut self,
+        rows: usize,
+        components: usize,
+        kind: NumberType,
+    ) -> Result<(), Mistake> {
         let numbers = count(rows, components.max(1), kind)?;
         match self.is_binary {
             true => self.bytes_of(numbers, kind).map(drop),
@@ -117,7 +122,11 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    pub fn ascii(&mut self, numbers: usize, kind: Kind) -> Result<(Vec<f64>, Stored), Mistake> {
+    pub fn ascii(
+        &mut self,
+        numbers: usize,
+        kind: NumberType,
+    ) -> Result<(Vec<f64>, Stored), Mistake> {
         let mut style = Style::default();
         let mut values = Vec::new();
         for _ in 0..numbers {
@@ -138,9 +147,9 @@ impl<'a> Cursor<'a> {
         match self.word() {
             Some("string") => {}
             Some("bit") if self.is_binary => {
-                return self.bytes_of(words.div_ceil(8), Kind::Unsigned(1)).map(|_| true);
+                return self.bytes_of(words.div_ceil(8), NumberType::Unsigned(1)).map(|_| true);
             }
-            Some("bit") => return self.pass(words, 1, Kind::Unsigned(1)).map(|()| true),
+            Some("bit") => return self.pass(words, 1, NumberType::Unsigned(1)).map(|()| true),
             _ => {
                 self.at = before;
                 return Ok(false);
@@ -165,7 +174,7 @@ impl<'a> Cursor<'a> {
         Ok(true)
     }
 
-    pub fn positions(&mut self, numbers: usize, kind: Kind) -> Result<Vec<usize>, Mistake> {
+    pub fn positions(&mut self, numbers: usize, kind: NumberType) -> Result<Vec<usize>, Mistake> {
         positions(self.array("", numbers, 1, kind)?.values)
     }
 
@@ -181,7 +190,7 @@ impl<'a> Cursor<'a> {
             return Ok((offsets.into_iter().skip(1).collect(), self.positions(second, kind)?));
         }
         self.at = before;
-        counted(first, &self.positions(second, Kind::Signed(4))?)
+        counted(first, &self.positions(second, NumberType::Signed(4))?)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Legacy VTK: "VTK File Formats" (Kitware), of versions 2 to 5.
 
-use super::super::numbers::Kind;
+use super::super::numbers::NumberType;
 use super::super::table::is_time;
 use super::super::text::finish;
 use super::arrays::is_before;
@@ -12,7 +12,7 @@ use crate::{Array, Mistake, Snapshot, Time};
 
 /// The parts of the file read so far.
 #[derive(Default)]
-struct Found {
+struct LegacyReader {
     snapshot: Snapshot,
     single: Vec<bool>,
     /// The section of the arrays that follow.
@@ -46,13 +46,13 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
         b"BINARY" => true,
         _ => return Err(cursor.mistake("expected ASCII or BINARY")),
     };
-    let mut found = Found::default();
+    let mut found = LegacyReader::default();
     while let Some(word) = cursor.word() {
         let part = found.part(&word.to_ascii_uppercase(), &mut cursor);
         part.map_err(|mistake| cursor.mistake(mistake.what))?;
     }
     let rows = found.snapshot.points.as_ref().map_or(0, Array::rows);
-    found.snapshot.cells.hold(rows)?;
+    found.snapshot.cells.validate(rows)?;
     if is_before(version, [5, 1]) {
         found.snapshot.cells.renumber_old();
     }
@@ -61,7 +61,7 @@ pub fn parse(bytes: &[u8], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
     Ok(found.snapshot.with_vertices_as_points())
 }
 
-impl Found {
+impl LegacyReader {
     /// Reads the part that begins with this word.
     fn part(&mut self, word: &str, cursor: &mut Cursor<'_>) -> Result<(), Mistake> {
         match word {
@@ -94,13 +94,13 @@ impl Found {
             "X_COORDINATES" | "Y_COORDINATES" | "Z_COORDINATES" => {
                 let (rows, kind) = (cursor.integer()?, cursor.kind()?);
                 self.axes.push(cursor.array(word, rows, 1, kind)?);
-                self.single_axes.push(kind == Kind::Float(4));
+                self.single_axes.push(kind == NumberType::Float(4));
                 Ok(())
             }
             "POINTS" => {
                 let (rows, kind) = (cursor.integer()?, cursor.kind()?);
                 self.snapshot.points = Some(cursor.array("Points", rows, 3, kind)?);
-                self.single.insert(0, kind == Kind::Float(4));
+                self.single.insert(0, kind == NumberType::Float(4));
                 Ok(())
             }
             "CELLS" => {
@@ -110,7 +110,7 @@ impl Found {
             }
             "CELL_TYPES" => {
                 let count = cursor.integer()?;
-                let types = cursor.positions(count, Kind::Signed(4))?.into_iter();
+                let types = cursor.positions(count, NumberType::Signed(4))?.into_iter();
                 let kind = |kind| u8::try_from(kind).map_err(|_| Mistake::new("no type of cells"));
                 self.snapshot.cells.types = types.map(kind).collect::<Result<_, _>>()?;
                 Ok(())
@@ -193,12 +193,13 @@ impl Found {
             "FIELD" => return self.fields(cursor),
             "COLOR_SCALARS" => {
                 let (of, components) = (self.of.unwrap_or(Of::Whole), cursor.integer()?);
-                return cursor.pass(self.rows(of), components, Kind::Unsigned(1));
+                return cursor.pass(self.rows(of), components, NumberType::Unsigned(1));
             }
             "GLOBAL_IDS" | "PEDIGREE_IDS" | "EDGE_FLAGS" => 1,
             "LOOKUP_TABLE" => {
                 let rows = cursor.integer()?;
-                let kind = if cursor.is_binary { Kind::Unsigned(1) } else { Kind::Float(4) };
+                let kind =
+                    if cursor.is_binary { NumberType::Unsigned(1) } else { NumberType::Float(4) };
                 return cursor.pass(rows, 4, kind);
             }
             "SCALARS" => 1,
@@ -277,17 +278,17 @@ impl Found {
         Ok(())
     }
 
-    fn add(&mut self, of: Of, array: Array, kind: Kind) {
+    fn add(&mut self, of: Of, array: Array, kind: NumberType) {
         self.last = Some(of);
         match of {
             Of::Whole => self.time(&array),
             Of::Points => {
                 let before = self.snapshot.of_cells.len();
-                self.single.insert(self.single.len() - before, kind == Kind::Float(4));
+                self.single.insert(self.single.len() - before, kind == NumberType::Float(4));
                 self.snapshot.of_points.push(array);
             }
             Of::Cells => {
-                self.single.push(kind == Kind::Float(4));
+                self.single.push(kind == NumberType::Float(4));
                 self.snapshot.of_cells.push(array);
             }
         }

@@ -96,7 +96,7 @@ pub fn series(text: &[u8], wanted: &Wanted<'_>) -> Result<Contents, Mistake> {
         serde_json::from_slice::<Value>(text)
             .map_err(|error| Mistake::at(error.line(), format!("not JSON: {error}")))
     };
-    let found = wanted.beside(text.len().saturating_mul(OF_JSON), parse)?;
+    let found = wanted.with_reserved(text.len().saturating_mul(OF_JSON), parse)?;
     let all = found.get("files").and_then(Value::as_array);
     let all = all.ok_or_else(|| wrong("no list `files`"))?;
     let names = all.iter().map(|it| it.get("name")?.as_str().map(str::to_owned));

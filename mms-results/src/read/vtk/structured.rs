@@ -1,6 +1,6 @@
 //! Points and cells of grids that are defined by their extents: "VTK File Formats" (Kitware), structured datasets.
 
-use super::super::numbers::{Kind, count};
+use super::super::numbers::{NumberType, count};
 use super::super::text::number;
 use crate::wanted::Wanted;
 use crate::{Array, Cells, Mistake, Stored};
@@ -51,7 +51,7 @@ impl Extent {
         let is_empty = counts.contains(&0);
         let points = if is_empty { Some(0) } else { product(counts) };
         let points =
-            points.filter(|it| count(*it, 3, Kind::Float(8)).is_ok()).ok_or_else(|| {
+            points.filter(|it| count(*it, 3, NumberType::Float(8)).is_ok()).ok_or_else(|| {
                 Mistake::new(format!("a grid of {counts:?} points: no file holds as many"))
             })?;
         let along = |count: usize| if count > 1 { count - 1 } else { count };
@@ -84,7 +84,7 @@ impl Extent {
             |at: &[usize; 3]| axes.iter().zip(at).map(|(&axis, by)| by * strides[axis]).sum();
         let corners: Vec<usize> = CORNERS[..1 << dimension].iter().map(corner).collect();
         // Besides its points, a cell has an end, and a type of one byte.
-        wanted.take("the mesh", self.cells.saturating_mul(corners.len() + 2))?;
+        wanted.reserve("the mesh", self.cells.saturating_mul(corners.len() + 2))?;
         let mut points = Vec::with_capacity(self.cells * corners.len());
         let steps = self.counts.map(|count| if count > 1 { count - 1 } else { count });
         let steps = if self.cells == 0 { [0; 3] } else { steps };
@@ -108,7 +108,7 @@ impl Extent {
         stored: Stored,
         wanted: &Wanted<'_>,
     ) -> Result<Array, Mistake> {
-        wanted.take("the places of the points", 3 * self.points)?;
+        wanted.reserve("the places of the points", 3 * self.points)?;
         let mut values = Vec::with_capacity(3 * self.points);
         let sum = |a: [f64; 3], b: [f64; 3]| [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
         let [x, y, z] = if self.points == 0 { [0; 3] } else { self.counts };
@@ -238,7 +238,7 @@ mod tests {
                 "{text}"
             );
             assert!(mesh.types.iter().all(|it| *it == kind), "{text}");
-            assert!(mesh.hold(points).is_ok(), "{text}");
+            assert!(mesh.validate(points).is_ok(), "{text}");
             let largest = mesh.points.iter().max().map_or(0, |it| it + 1);
             assert_eq!(largest, points, "{text}");
         }

@@ -112,7 +112,7 @@ fn piece(piece: Node<'_, '_>, format: &Format<'_>) -> Result<Snapshot, Mistake> 
         return Ok(Snapshot::default());
     }
     let mut cells = cells(piece, format)?;
-    cells.hold(rows).map_err(|mistake| Mistake { line: Some(line(piece)), ..mistake })?;
+    cells.validate(rows).map_err(|mistake| Mistake { line: Some(line(piece)), ..mistake })?;
     if format.is_old {
         cells.renumber_old();
     }

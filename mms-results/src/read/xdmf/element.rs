@@ -45,7 +45,7 @@ impl<'b, 'c> Reader<'_, 'b, 'c> {
         if components == 0 || components > MOST_COMPONENTS {
             return Err(misfit());
         }
-        self.wanted.take(&format!("`{name}`"), rows * components)?;
+        self.wanted.reserve(&format!("`{name}`"), rows * components)?;
         let mut found = vec![f64::NAN; rows * components];
         for (cell, points) in cells.iter().enumerate() {
             let (own, nodes) = (own(cell).ok_or_else(misfit)?, nodes(points));

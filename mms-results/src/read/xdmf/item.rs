@@ -5,7 +5,7 @@ use std::rc::Rc;
 use roxmltree::Node;
 
 use super::super::hdf5;
-use super::super::numbers::{Kind, Order, count};
+use super::super::numbers::{ByteOrder, NumberType, count};
 use super::super::text::{Style, number};
 use super::super::xml::at;
 use super::{Reader, said};
@@ -53,7 +53,7 @@ impl<'a, 'b, 'c> Reader<'a, 'b, 'c> {
         let numbers = numbers
             .ok_or_else(|| Mistake::new(format!("Dimensions `{shape}`: expected lengths")))?;
         let text = node.text().unwrap_or("").trim();
-        let take = |numbers: usize| self.wanted.take(&format!("`{name}`"), numbers);
+        let take = |numbers: usize| self.wanted.reserve(&format!("`{name}`"), numbers);
         let array = |values, stored| Array {
             name: name.to_owned(),
             components: 1,
@@ -86,8 +86,8 @@ impl<'a, 'b, 'c> Reader<'a, 'b, 'c> {
             }
             "binary" => {
                 let order = match said(node, ["Endian"; 2], "native").as_str() {
-                    "big" => Order::Big,
-                    _ => Order::Little,
+                    "big" => ByteOrder::Big,
+                    _ => ByteOrder::Little,
                 };
                 if !["", "raw"].contains(&&*said(node, ["Compression"; 2], "")) {
                     return Err(Mistake::new(
@@ -128,7 +128,7 @@ impl<'a, 'b, 'c> Reader<'a, 'b, 'c> {
             return Ok(known.clone());
         }
         let bytes = (self.beside)(name)?;
-        self.wanted.take(&format!("the file `{name}`"), bytes.len() / 8)?;
+        self.wanted.reserve(&format!("the file `{name}`"), bytes.len() / 8)?;
         let heavy = Rc::new(match is_tree {
             true => Heavy::Tree(hdf5::File::open(bytes, self.wanted)?),
             false => Heavy::Raw(bytes),
@@ -139,16 +139,16 @@ impl<'a, 'b, 'c> Reader<'a, 'b, 'c> {
 }
 
 /// The type of numbers that an element declares.
-fn kind(node: Node<'_, '_>) -> Result<Kind, Mistake> {
+fn kind(node: Node<'_, '_>) -> Result<NumberType, Mistake> {
     let name = said(node, ["NumberType", "DataType"], "float");
     let precision = node.attribute("Precision").unwrap_or("4");
     let bytes = precision.trim().parse().ok().filter(|it| [1, 2, 4, 8].contains(it));
     let found = bytes.and_then(|bytes| match name.as_str() {
-        "float" if bytes >= 4 => Some(Kind::Float(bytes)),
-        "int" => Some(Kind::Signed(bytes)),
-        "uint" => Some(Kind::Unsigned(bytes)),
-        "char" => Some(Kind::Signed(1)),
-        "uchar" => Some(Kind::Unsigned(1)),
+        "float" if bytes >= 4 => Some(NumberType::Float(bytes)),
+        "int" => Some(NumberType::Signed(bytes)),
+        "uint" => Some(NumberType::Unsigned(bytes)),
+        "char" => Some(NumberType::Signed(1)),
+        "uchar" => Some(NumberType::Unsigned(1)),
         _ => None,
     });
     found.ok_or_else(|| {

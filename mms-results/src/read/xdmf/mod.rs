@@ -233,9 +233,9 @@ impl<'a, 'b, 'c> Reader<'a, 'b, 'c> {
         let geometry = geometry.ok_or_else(|| at(grid, "expected a `<Geometry>` with points"))?;
         let points = self.geometry(geometry)?;
         let cells = one("Topology").map(|it| self.topology(it)).transpose()?.unwrap_or_default();
-        cells.hold(points.rows()).map_err(|it| at(grid, it.what))?;
+        cells.validate(points.rows()).map_err(|it| at(grid, it.what))?;
         let numbers = points.values.len() + cells.points.len() + 2 * cells.len();
-        self.wanted.take("the mesh of a grid", numbers)?;
+        self.wanted.reserve("the mesh of a grid", numbers)?;
         let (points, cells) = (Some((*points).clone()), (*cells).clone());
         let mut snapshot = Snapshot { points, cells, ..Snapshot::default() };
         let mut single = [Vec::new(), Vec::new()];
@@ -288,7 +288,7 @@ impl<'a, 'b, 'c> Reader<'a, 'b, 'c> {
         }
         array.components = array.values.len() / rows;
         if said(node, ["AttributeType", "Type"], "") == "tensor6" && array.components == 6 {
-            self.wanted.take(&format!("`{name}`"), 9 * rows)?;
+            self.wanted.reserve(&format!("`{name}`"), 9 * rows)?;
             // The upper half of a symmetric matrix, row by row.
             let whole = |it: &[f64]| [0, 1, 2, 1, 3, 4, 2, 4, 5].map(|at| it[at]);
             array.values = array.values.chunks_exact(6).flat_map(whole).collect();
