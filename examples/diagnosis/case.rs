@@ -1,6 +1,6 @@
 //! One case: a solver with a mistake, and the diagnosis of its results.
 
-use mms_diagnosis::answer::{Diagnosis, Finding};
+use mms_diagnosis::answer::{Diagnosis, DiagnosisFinding};
 use mms_diagnosis::changed::{Changed, Without};
 use mms_diagnosis::evidence::{DEGREE, Frame, Mesh, Snapshot};
 use mms_diagnosis::exact::{Exact, Quantity, vectors};
@@ -296,10 +296,10 @@ fn outcome<const D: usize>(
     let most = answer.ranked.iter().max_by(|a, b| a.explained.total_cmp(&b.explained));
     Outcome {
         finding: match (answer.finding, in_class) {
-            (Finding::Nothing, _) => "nothing",
-            (Finding::Unexplained, _) => "unexplained",
-            (Finding::Named, true) => "right",
-            (Finding::Named, false) => "wrong",
+            (DiagnosisFinding::Nothing, _) => "nothing",
+            (DiagnosisFinding::Unexplained, _) => "unexplained",
+            (DiagnosisFinding::Named, true) => "right",
+            (DiagnosisFinding::Named, false) => "wrong",
         },
         field: told.field.into(),
         name: told.name,

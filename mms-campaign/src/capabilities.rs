@@ -54,7 +54,7 @@ pub(crate) fn read(reader: &mut Reader, table: &Table<'_>) -> Option<Capabilitie
     let table = reader.table(value, "can", expected, ("`can`", KEYS))?;
     let words = |reader: &mut Reader, key: &str, known: &[&str]| {
         let found = reader.texts(&table, key);
-        found.iter().for_each(|word| hold(reader, key, word, known));
+        found.iter().for_each(|word| validate_word(reader, key, word, known));
         found.into_iter().map(|word| word.value).collect::<Vec<_>>()
     };
     let bodies = words(reader, "bodies", &Shape::words());
@@ -85,7 +85,12 @@ pub(crate) fn read(reader: &mut Reader, table: &Table<'_>) -> Option<Capabilitie
 }
 
 /// Refuses a word that is not a known one.
-pub(crate) fn hold(reader: &mut Reader, key: &str, word: &Spanned<String>, known: &[&str]) {
+pub(crate) fn validate_word(
+    reader: &mut Reader,
+    key: &str,
+    word: &Spanned<String>,
+    known: &[&str],
+) {
     if known.contains(&word.value.as_str()) {
         return;
     }

@@ -8,8 +8,8 @@ use mms_spec::diagnostic::{Diagnostic, quoted, render};
 use mms_spec::source::{Sources, Span, Spanned};
 use toml::de::DeValue;
 
-use crate::capabilities::{self, Capabilities, hold};
-use crate::set::{self, Step};
+use crate::capabilities::{self, Capabilities, validate_word};
+use crate::set::{self, SweepPoint};
 use crate::table::{Reader, Table, Value, digits, each, number};
 use crate::template::{Placeholder, Template, Wrong};
 
@@ -126,7 +126,7 @@ impl Study {
     }
 
     /// Adds the parameters of a step.
-    fn at(self, step: Step) -> Self {
+    fn at(self, step: SweepPoint) -> Self {
         let name = match step.name.is_empty() {
             true => self.name,
             false => format!("{}@{}", self.name, step.name),
@@ -285,7 +285,7 @@ fn solver(reader: &mut Reader, root: &Table<'_>) -> Option<Solver> {
         reader.missing(&table, "output", "as in output = \"{output}/*.vtu\"");
     }
     let state = reader.text(&table, "state");
-    state.iter().for_each(|word| hold(reader, "state", word, STATES));
+    state.iter().for_each(|word| validate_word(reader, "state", word, STATES));
     let found = Solver {
         name: reader.text(&table, "name").map_or_else(|| "solver".to_owned(), |it| it.value),
         version: reader.text(&table, "version").map(|it| it.value),
@@ -421,7 +421,7 @@ fn studies(reader: &mut Reader, root: &Table<'_>) -> Vec<Study> {
 }
 
 /// Reads a study, and the steps of its parameters.
-fn study(reader: &mut Reader, table: &Table<'_>) -> Option<(Study, Vec<Step>)> {
+fn study(reader: &mut Reader, table: &Table<'_>) -> Option<(Study, Vec<SweepPoint>)> {
     let field = reader.text(table, "field");
     if table.value("field").is_none() {
         reader.missing(table, "field", "a name of the gallery, or the path of a field file");

@@ -12,10 +12,10 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use crate::printed::last_lines;
-use crate::supervisor::{PAUSES, RUNNING, Report, STDERR, STDOUT, WORD, alone};
+use crate::supervisor::{PAUSES, RUNNING, Report, STDERR, STDOUT, WORD, in_own_group};
 
 /// A program to run, its surroundings and its limit.
-pub struct Order<'a> {
+pub struct Launch<'a> {
     /// The words of the supervising program, to which [`WORD`] is added.
     pub supervisor: &'a [OsString],
     /// The program, and its arguments.
@@ -59,7 +59,7 @@ impl Folder {
     ///
     /// # Errors
     /// A supervisor whose state cannot be read.
-    pub fn run(&self, order: &Order<'_>, stop: &dyn Fn() -> bool) -> io::Result<Report> {
+    pub fn run(&self, order: &Launch<'_>, stop: &dyn Fn() -> bool) -> io::Result<Report> {
         let [program, words @ ..] = order.supervisor else {
             return Ok(Report::badly("no supervisor"));
         };
@@ -68,7 +68,7 @@ impl Folder {
         command.arg(order.limit.as_secs_f64().to_string()).args(order.words);
         command.envs(order.variables.iter().map(|(name, value)| (name, value)));
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(self.running.try_clone()?);
-        alone(&mut command);
+        in_own_group(&mut command);
         match command.spawn() {
             Ok(supervisor) => followed(supervisor, stop),
             Err(error) => Ok(Report::badly(format!("its supervisor cannot be started: {error}"))),

@@ -16,7 +16,7 @@ use crate::file::Mistakes;
 use crate::table::{Reader, Value, each};
 
 /// The rows and columns of a tensor's entries, counted from 0, in the order of an array's components.
-pub type Order = Vec<(usize, usize)>;
+pub type ComponentOrder = Vec<(usize, usize)>;
 
 /// A profile; `R` is the caller's type of quantities.
 #[derive(Clone, Debug)]
@@ -26,7 +26,7 @@ pub struct Profile<R> {
     /// The names of arrays.
     pub quantities: Vec<(R, Vec<String>)>,
     /// The orders of components.
-    pub orders: Vec<Order>,
+    pub orders: Vec<ComponentOrder>,
 }
 
 /// Parses a text; messages show `path` as its path. `role` returns a quantity, or the expected names.
@@ -103,14 +103,14 @@ fn texts(value: &Value<'_>) -> Option<Vec<String>> {
 }
 
 /// The entries that a text such as `11,22,33,12` lists.
-fn order(reader: &mut Reader, word: &Spanned<String>) -> Option<Order> {
+fn order(reader: &mut Reader, word: &Spanned<String>) -> Option<ComponentOrder> {
     let entry = |text: &str| match text.trim().as_bytes() {
         [row @ b'1'..=b'3', column @ b'1'..=b'3'] => {
             Some((usize::from(row - b'1'), usize::from(column - b'1')))
         }
         _ => None,
     };
-    let found: Option<Order> = word.value.split(',').map(entry).collect();
+    let found: Option<ComponentOrder> = word.value.split(',').map(entry).collect();
     if found.is_none() {
         let expected = "entries of a tensor by row and column, as in \"11,22,33,12,23,13\"";
         reader.expect(word.span, "orders", expected);

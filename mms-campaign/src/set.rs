@@ -11,7 +11,7 @@ use crate::table::{Reader, Table, Value, digits};
 
 /// The parameters of a step.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Step {
+pub(crate) struct SweepPoint {
     /// The stepped parameters, as part of the name of a folder; empty if there are none.
     pub name: String,
     /// All parameters, as `name=value`.
@@ -26,8 +26,8 @@ struct Setting {
 }
 
 /// The steps of `set`: one if no parameter is stepped.
-pub(crate) fn steps(reader: &mut Reader, table: &Table<'_>) -> Vec<Step> {
-    let Some(value) = table.value("set") else { return vec![Step::default()] };
+pub(crate) fn steps(reader: &mut Reader, table: &Table<'_>) -> Vec<SweepPoint> {
+    let Some(value) = table.value("set") else { return vec![SweepPoint::default()] };
     let expected = "a table of numbers or of lists of them, as in { young = 1e6, load = [0.5, 1] }";
     let entries = reader.of_value(value, "set", expected, |_| value.get_ref().as_table());
     let Some(entries) = entries else { return Vec::new() };
@@ -36,7 +36,7 @@ pub(crate) fn steps(reader: &mut Reader, table: &Table<'_>) -> Vec<Step> {
         .filter_map(|(name, value)| setting(reader, name.get_ref().as_ref(), value))
         .collect();
     let Some(count) = count(reader, &settings) else { return Vec::new() };
-    let steps: Vec<Step> = (0..count).map(|at| step(&settings, at)).collect();
+    let steps: Vec<SweepPoint> = (0..count).map(|at| step(&settings, at)).collect();
     validate_distinct(reader, &settings, &steps);
     steps
 }
@@ -80,7 +80,7 @@ fn count(reader: &mut Reader, settings: &[Setting]) -> Option<usize> {
     agree.then_some(count)
 }
 
-fn step(settings: &[Setting], at: usize) -> Step {
+fn step(settings: &[Setting], at: usize) -> SweepPoint {
     let value = |it: &Setting| {
         let value = if it.list.is_some() { &it.values[at] } else { &it.values[0] };
         format!("{}={value}", it.name)
@@ -89,11 +89,11 @@ fn step(settings: &[Setting], at: usize) -> Step {
     // A fraction contains a slash.
     let is_odd = |c: char| !(c.is_alphanumeric() || matches!(c, '=' | '.' | '_' | '+' | '-'));
     let name = stepped.map(|it| it.replace(is_odd, "_")).collect::<Vec<_>>().join(",");
-    Step { name, set: settings.iter().map(value).collect() }
+    SweepPoint { name, set: settings.iter().map(value).collect() }
 }
 
 /// Refuses duplicate steps, whose results would be confused.
-fn validate_distinct(reader: &mut Reader, settings: &[Setting], steps: &[Step]) {
+fn validate_distinct(reader: &mut Reader, settings: &[Setting], steps: &[SweepPoint]) {
     let twice = (0..steps.len()).find(|&at| steps[..at].iter().any(|it| it.name == steps[at].name));
     let span = settings.iter().find_map(|it| it.list);
     if let (Some(at), Some(span)) = (twice, span) {

@@ -83,7 +83,9 @@ impl Report {
 }
 
 /// The arguments of a supervisor, if the first argument is [`WORD`].
-pub fn asked(arguments: impl IntoIterator<Item = OsString>) -> Option<Vec<OsString>> {
+pub fn supervisor_arguments(
+    arguments: impl IntoIterator<Item = OsString>,
+) -> Option<Vec<OsString>> {
     let mut arguments = arguments.into_iter().skip(1);
     (arguments.next()? == WORD).then(|| arguments.collect())
 }
@@ -94,7 +96,8 @@ pub fn run(arguments: &[OsString]) -> u8 {
     let [folder, directory, limit, words @ ..] = arguments else { return 2 };
     let seconds = limit.to_str().and_then(|it| it.parse::<f64>().ok()).unwrap_or(f64::INFINITY);
     let limit = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
-    let run = Run { folder: Path::new(folder), directory: Path::new(directory), words, limit };
+    let run =
+        SupervisedRun { folder: Path::new(folder), directory: Path::new(directory), words, limit };
     let told = run.supervised().map(|report| report.lines());
     match told.and_then(|lines| io::stdout().write_all(lines.as_bytes())) {
         Ok(()) => 0,
@@ -121,14 +124,14 @@ const LAST_WORDS: Duration = Duration::from_secs(1);
 const MOST_NAMES: usize = 16;
 
 /// A program to run, its folders and its limit.
-struct Run<'a> {
+struct SupervisedRun<'a> {
     folder: &'a Path,
     directory: &'a Path,
     words: &'a [OsString],
     limit: Duration,
 }
 
-impl Run<'_> {
+impl SupervisedRun<'_> {
     fn supervised(&self) -> io::Result<Report> {
         let [program, arguments @ ..] = self.words else { return Ok(Report::badly("no command")) };
         let stop = stop()?;
@@ -138,7 +141,7 @@ impl Run<'_> {
         let mut command = Command::new(named(program, self.directory));
         command.args(arguments).current_dir(self.directory).stdin(Stdio::null());
         command.stdout(Stdio::piped()).stderr(Stdio::piped());
-        alone(&mut command);
+        in_own_group(&mut command);
         let (report, is_over) = match command.spawn() {
             Ok(child) => self.followed(child, &stop)?,
             Err(error) => {
@@ -156,7 +159,7 @@ impl Run<'_> {
     /// Waits for a program, and ends the remaining processes of its run. Returns also whether none remain.
     fn followed(&self, mut child: Child, stop: &AtomicBool) -> io::Result<(Report, bool)> {
         let printed = self.printed(&mut child);
-        let mut ended = self.ended(&mut child, stop)?;
+        let mut ended = self.wait_for_end(&mut child, stop)?;
         let mut left_behind = Vec::new();
         if child.try_wait()?.is_some() {
             left_behind = left(&mut child, HELPERS, false)?;
@@ -198,7 +201,7 @@ impl Run<'_> {
     }
 
     /// Waits until a program ends, or must be ended, and returns the reason.
-    fn ended(&self, child: &mut Child, stop: &AtomicBool) -> io::Result<Ended> {
+    fn wait_for_end(&self, child: &mut Child, stop: &AtomicBool) -> io::Result<Ended> {
         let (started, mut pause) = (Instant::now(), PAUSES[0]);
         loop {
             if let Some(status) = child.try_wait()? {
@@ -310,7 +313,7 @@ fn running() -> io::Result<File> {
 }
 
 /// Puts a process into its own group, which Ctrl-C at a terminal does not reach.
-pub fn alone(command: &mut Command) {
+pub fn in_own_group(command: &mut Command) {
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(command, 0);
     #[cfg(not(unix))]

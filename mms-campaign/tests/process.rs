@@ -9,12 +9,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use mms_campaign::printed::{HEAD, TAIL};
-use mms_campaign::process::{Folder, Order};
+use mms_campaign::process::{Folder, Launch};
 use mms_campaign::supervisor::{Ended, RUNNING, Report, STDERR, STDOUT};
 
 /// Runs a command in its folder.
 fn run_words(folder: &Folder, words: &[String], limit: f64, stop: &dyn Fn() -> bool) -> Report {
-    let order = Order {
+    let order = Launch {
         supervisor: &[env!("CARGO_BIN_EXE_supervise").into()],
         words,
         directory: &folder.path,

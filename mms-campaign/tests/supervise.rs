@@ -5,6 +5,6 @@ use std::process::ExitCode;
 use mms_campaign::supervisor;
 
 fn main() -> ExitCode {
-    let arguments = supervisor::asked(std::env::args_os()).unwrap_or_default();
+    let arguments = supervisor::supervisor_arguments(std::env::args_os()).unwrap_or_default();
     supervisor::run(&arguments).into()
 }

@@ -6,12 +6,12 @@ use mms_runtime::Face;
 
 use crate::exact::Exact;
 use crate::falls::{Falls, OfOrder};
-use crate::hypothesis::{Hypothesis, Kind, Size, title};
+use crate::hypothesis::{Hypothesis, HypothesisKind, Size, title};
 use crate::smooth::{less, size};
 
 /// The outcome of a diagnosis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Finding {
+pub enum DiagnosisFinding {
     /// The error is no larger than the error of a right method.
     Nothing,
     /// A hypothesis explains the error.
@@ -20,13 +20,13 @@ pub enum Finding {
     Unexplained,
 }
 
-impl Finding {
+impl DiagnosisFinding {
     /// The name of the finding in a document.
     pub fn name(self) -> &'static str {
         match self {
-            Finding::Nothing => "nothing",
-            Finding::Named => "named",
-            Finding::Unexplained => "unexplained",
+            DiagnosisFinding::Nothing => "nothing",
+            DiagnosisFinding::Named => "named",
+            DiagnosisFinding::Unexplained => "unexplained",
         }
     }
 }
@@ -41,7 +41,7 @@ pub struct Ranked {
     /// The description of the mistake.
     pub says: String,
     /// Whether it is a mistake or a choice.
-    pub kind: Kind,
+    pub kind: HypothesisKind,
     /// The face that it is on.
     pub face: Option<Face>,
     /// Which of several variants it is.
@@ -121,29 +121,31 @@ impl Rung {
     }
 
     /// Advises what to run next after this finding.
-    pub fn next(self, finding: Finding) -> &'static str {
+    pub fn next(self, finding: DiagnosisFinding) -> &'static str {
         match (self, finding) {
-            (_, Finding::Named) => "fix it, run your code again, and diagnose it again",
-            (Rung::Law, Finding::Nothing) => {
+            (_, DiagnosisFinding::Named) => "fix it, run your code again, and diagnose it again",
+            (Rung::Law, DiagnosisFinding::Nothing) => {
                 "the law is right for these F; look at accelerations or residuals at an exact state, which `mms state` writes"
             }
-            (Rung::Law, Finding::Unexplained) => {
+            (Rung::Law, DiagnosisFinding::Unexplained) => {
                 "stresses at F with only a volume change, and at F with only one shear, to see which is wrong"
             }
-            (Rung::State(_), Finding::Nothing) => {
+            (Rung::State(_), DiagnosisFinding::Nothing) => {
                 "force, stress, mass and loads are right at this state; look at velocities after one small step from it"
             }
-            (Rung::State(_), Finding::Unexplained) => {
+            (Rung::State(_), DiagnosisFinding::Unexplained) => {
                 "the same without a term (`--without body_force`, stress, traction), and a table of the law alone"
             }
-            (Rung::Step, Finding::Nothing) => {
+            (Rung::Step, DiagnosisFinding::Nothing) => {
                 "one step is right; look at results at later times, of two meshes"
             }
-            (Rung::Step, Finding::Unexplained) => {
+            (Rung::Step, DiagnosisFinding::Unexplained) => {
                 "accelerations at the exact state from which it starts"
             }
-            (Rung::Results, Finding::Nothing) => "a finer mesh, or another field, would show more",
-            (Rung::Results, Finding::Unexplained) => {
+            (Rung::Results, DiagnosisFinding::Nothing) => {
+                "a finer mesh, or another field, would show more"
+            }
+            (Rung::Results, DiagnosisFinding::Unexplained) => {
                 "accelerations at an exact state, or a table of F and stress (`--quantity stress`)"
             }
         }
@@ -172,7 +174,7 @@ pub struct Pair {
 
 /// The concentration of an error.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Place {
+pub struct ErrorPlace {
     /// X of the point with the largest error.
     pub at: Vec<f64>,
     /// The time.
@@ -207,7 +209,7 @@ pub struct Fields {
 #[derive(Clone, Debug)]
 pub struct Diagnosis {
     /// The outcome.
-    pub finding: Finding,
+    pub finding: DiagnosisFinding,
     /// The kind of evidence that was diagnosed.
     pub rung: Rung,
     /// Hypotheses, the best one first.
@@ -227,7 +229,7 @@ pub struct Diagnosis {
     /// A right method with such an error.
     pub like: Option<Like>,
     /// The concentration of the error, for results.
-    pub place: Option<Place>,
+    pub place: Option<ErrorPlace>,
     /// The errors of results, for plots.
     pub fields: Option<Fields>,
 }
@@ -321,7 +323,7 @@ pub struct Limits {
 
 impl Limits {
     /// Finds the outcome from ranked hypotheses and from `excess`, the error divided by the methods' error.
-    pub fn finding(&self, ranked: &[Ranked], excess: f64) -> Finding {
+    pub fn finding(&self, ranked: &[Ranked], excess: f64) -> DiagnosisFinding {
         let others = ranked.iter().filter(|it| !it.is_plausible && !it.acts_as_first);
         let nearest = others.map(|it| left(it.explained)).fold(f64::INFINITY, f64::min);
         let names = |best: &Ranked| {
@@ -340,9 +342,9 @@ impl Limits {
                 && left <= (self.nearer[kind] * nearest).max(CLEAR)
         };
         match ranked.first() {
-            Some(best) if names(best) => Finding::Named,
-            _ if excess <= 1.0 => Finding::Nothing,
-            _ => Finding::Unexplained,
+            Some(best) if names(best) => DiagnosisFinding::Named,
+            _ if excess <= 1.0 => DiagnosisFinding::Nothing,
+            _ => DiagnosisFinding::Unexplained,
         }
     }
 }

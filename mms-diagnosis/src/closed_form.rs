@@ -6,11 +6,11 @@
 use mms_runtime::body::{Filling, bounding_box};
 use mms_runtime::{Fill, Matrix, Vector};
 
-use crate::answer::{Diagnosis, Finding, Ranked};
+use crate::answer::{Diagnosis, DiagnosisFinding, Ranked};
 use crate::exact::{Exact, numbers};
 use crate::hypothesis::{Change, Given, Hypothesis, OfForce, OfStress};
 use crate::smooth::{less, size};
-use crate::table::{self, ARITHMETIC, Measure, Table, to_round_off};
+use crate::table::{self, ARITHMETIC, Measure, StressTable, to_round_off};
 
 /// The quantity of a closed form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,15 +61,15 @@ pub fn diagnose<const D: usize>(
         ClosedForm::Stress(measure) => table::diagnose(exact, &sampled.table(measure), hypotheses)?,
         ClosedForm::BodyForce => sampled.force(hypotheses)?,
     };
-    let is_named = found.finding == Finding::Named;
+    let is_named = found.finding == DiagnosisFinding::Named;
     found.ranked.into_iter().next().filter(|_| is_named)
 }
 
 impl<const D: usize> Sampled<'_, D> {
     /// The values as stresses of a law.
-    fn table(&self, measure: Measure) -> Table<D> {
+    fn table(&self, measure: Measure) -> StressTable<D> {
         let gradients = self.times.iter().flat_map(|time| self.exact.gradient(*time, &self.points));
-        Table {
+        StressTable {
             rounding_of_gradient: 0.0,
             reference: self.times.iter().flat_map(|_| self.points.iter().copied()).collect(),
             gradient: gradients.collect(),

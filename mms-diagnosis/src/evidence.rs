@@ -80,7 +80,7 @@ pub struct Frame<const D: usize> {
 }
 
 /// The errors of results in a frame.
-pub struct Seen {
+pub struct ErrorCoefficients {
     /// Coefficients: by times, by quantities, by components, by functions.
     pub coefficients: Vec<f64>,
     /// The part of the squared error that the coefficients represent.
@@ -164,8 +164,8 @@ pub struct Sight<'a, const D: usize> {
 
 impl<const D: usize> Sight<'_, D> {
     /// Fits the errors of each time and quantity at the points; `None` if an error is not finite.
-    pub fn see(&self, errors: &[Vec<f64>]) -> Option<Seen> {
-        let mut seen = Seen { coefficients: Vec::new(), share: 0.0 };
+    pub fn see(&self, errors: &[Vec<f64>]) -> Option<ErrorCoefficients> {
+        let mut seen = ErrorCoefficients { coefficients: Vec::new(), share: 0.0 };
         let (mut all, mut held) = (0.0, 0.0);
         let sizes = self.frame.quantities.iter().map(|(_, size)| size).cycle();
         for (((at, _), errors), size) in self.frame.each().zip(errors).zip(sizes) {
@@ -185,7 +185,7 @@ impl<const D: usize> Sight<'_, D> {
     }
 
     /// The errors of the mesh; `None` where one is not finite.
-    pub fn errors_of(&self, exact: &Exact<'_, D>) -> Option<Seen> {
+    pub fn errors_of(&self, exact: &Exact<'_, D>) -> Option<ErrorCoefficients> {
         let one = |(at, quantity): (usize, Quantity)| {
             let snapshot = nearest(self.mesh, self.frame.times[at])?;
             let (_, values) = snapshot.values.iter().find(|(it, _)| *it == quantity)?;

@@ -13,9 +13,9 @@ use mms_runtime::study::Solve;
 use crate::changed::Without;
 use crate::evidence::{Frame, Mesh, Snapshot};
 use crate::exact::{Exact, Quantity};
-use crate::hypothesis::{Hypothesis, Kind, Size, title};
+use crate::hypothesis::{Hypothesis, HypothesisKind, Size, title};
 use crate::level::on_all_processors;
-use crate::run::{Obstacle, Plan, Responses as _, written};
+use crate::run::{Obstacle, Responses as _, SolverRuns, written};
 use crate::smooth::{Smooth, less};
 use crate::statics::{Equilibrium, Statics};
 
@@ -36,7 +36,7 @@ pub struct Study {
 
 /// The mistakes of one kind that the results would have shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shown {
+pub enum VisibleSizes {
     /// The results show the mistake: its error is this multiple of the results' error, or, if `None`, it stops the solver.
     Always(Option<f64>),
     /// The results show sizes that differ by more than this from the right one.
@@ -61,15 +61,15 @@ pub struct Excluded {
     /// The description of the mistake.
     pub says: &'static str,
     /// Whether it is a mistake or a choice.
-    pub kind: Kind,
+    pub kind: HypothesisKind,
     /// Whether the results would have shown it.
-    pub shown: Shown,
+    pub shown: VisibleSizes,
 }
 
 impl Excluded {
     /// Whether the mistake is excluded, at all sizes or from some size on.
     pub fn is_excluded(&self) -> bool {
-        !matches!(self.shown, Shown::Never(_))
+        !matches!(self.shown, VisibleSizes::Never(_))
     }
 }
 
@@ -94,7 +94,7 @@ struct Runs<'a, const D: usize> {
 /// Two ways to compute the errors that a mistake adds.
 enum Solvers<'a, const D: usize> {
     /// A run with the mistake, and one without.
-    Runs { plan: Plan<'a, D>, right: Vec<Vec<f64>> },
+    Runs { plan: SolverRuns<'a, D>, right: Vec<Vec<f64>> },
     /// Equilibrium with the mistake.
     Rest(Statics<'a, D>),
 }
@@ -116,7 +116,7 @@ where
             let equilibrium = Equilibrium::new(exact, frame)?.ok_or(Obstacle::NotHeld)?;
             return Ok(Solvers::Rest(Statics::new(Arc::new(equilibrium), frame, mesh)));
         }
-        let plan = Plan::new(exact, frame, mesh, Without::default(), None, MOST_WORK)?;
+        let plan = SolverRuns::new(exact, frame, mesh, Without::default(), None, MOST_WORK)?;
         let right = plan.right(0).ok_or(Obstacle::NotFinite)?;
         Ok(Solvers::Runs { plan, right })
     }
@@ -199,11 +199,11 @@ impl<const D: usize> Runs<'_, D>
 where
     f64: Solve<D>,
 {
-    fn shown(&self, hypothesis: &Hypothesis<D>) -> Shown {
+    fn shown(&self, hypothesis: &Hypothesis<D>) -> VisibleSizes {
         let Size::Any { right, first, .. } = &hypothesis.size else {
             return match self.times(hypothesis, &[]) {
-                Some(times) if times < NOTICED => Shown::Never(times),
-                times => Shown::Always(times),
+                Some(times) if times < NOTICED => VisibleSizes::Never(times),
+                times => VisibleSizes::Always(times),
             };
         };
         let axes = (0..right.len()).map(|axis| self.least(hypothesis, axis, first[axis]));
@@ -211,10 +211,10 @@ where
         let least = axes.fold(0.0, f64::max);
         let farthest = hypothesis.farthest();
         match least < farthest {
-            true => Shown::From { right: right[0], least },
+            true => VisibleSizes::From { right: right[0], least },
             // The mistake adds nothing at any size.
-            false if least.is_infinite() => Shown::Never(0.0),
-            false => Shown::Never(NOTICED * farthest / least),
+            false if least.is_infinite() => VisibleSizes::Never(0.0),
+            false => VisibleSizes::Never(NOTICED * farthest / least),
         }
     }
 

@@ -8,11 +8,11 @@ use mms_runtime::Method;
 use mms_runtime::study::Solve;
 
 use crate::changed::Without;
-use crate::evidence::{Frame, Mesh, Seen, Sight};
+use crate::evidence::{ErrorCoefficients, Frame, Mesh, Sight};
 use crate::exact::Exact;
 use crate::follow::Follow;
 use crate::hypothesis::{Change, Hypothesis};
-use crate::run::{Obstacle, Plan, Responses, written};
+use crate::run::{Obstacle, Responses, SolverRuns, written};
 use crate::smooth::{less, size};
 use crate::statics::{Equilibrium, Statics};
 
@@ -24,13 +24,13 @@ pub const MOST_WORK: f64 = 3e6;
 const FALLING: f64 = 0.25;
 
 /// One of the user's meshes.
-pub struct Level<'a, const D: usize> {
+pub struct MeshLevel<'a, const D: usize> {
     /// The results.
     pub mesh: &'a Mesh,
     /// The fit of errors at their points.
     sight: Sight<'a, D>,
     /// The errors of the results.
-    pub seen: Seen,
+    pub seen: ErrorCoefficients,
     /// The solvers whose errors are compared with the mesh's errors.
     pub solvers: Box<dyn Responses<'a, D> + 'a>,
     /// The errors of right methods; `None` for a method that stops.
@@ -48,7 +48,7 @@ fn of_methods<const D: usize>(
     on_all_processors(solvers.methods(), (&says, follow), right)
 }
 
-impl<'a, const D: usize> Level<'a, D> {
+impl<'a, const D: usize> MeshLevel<'a, D> {
     fn new(
         exact: &'a Exact<'a, D>,
         frame: &'a Frame<D>,
@@ -58,7 +58,7 @@ impl<'a, const D: usize> Level<'a, D> {
         let sight = frame.sight(mesh).ok_or(Obstacle::NotFinite)?;
         let seen = sight.errors_of(exact).ok_or(Obstacle::NotFinite)?;
         let right = of_methods(&sight, &*solvers, exact.follow)?;
-        Ok(Level { mesh, sight, seen, solvers, right })
+        Ok(MeshLevel { mesh, sight, seen, solvers, right })
     }
 
     /// The errors that a right method makes on the mesh.
@@ -73,8 +73,8 @@ pub struct Levels<'a, const D: usize> {
     exact: &'a Exact<'a, D>,
     frame: &'a Frame<D>,
     /// The finest mesh.
-    pub fine: Level<'a, D>,
-    coarse: Option<Level<'a, D>>,
+    pub fine: MeshLevel<'a, D>,
+    coarse: Option<MeshLevel<'a, D>>,
     /// The orders with which the errors of right methods fall on this field; `None` for a method that stops.
     orders: Vec<Option<f64>>,
 }
@@ -105,11 +105,16 @@ impl<'a, const D: usize> Levels<'a, D> {
         let level = |mesh: &'a Mesh| {
             let solvers: Box<dyn Responses<'a, D> + 'a> = match &equilibrium {
                 Some(equilibrium) => Box::new(Statics::new(equilibrium.clone(), frame, mesh)),
-                None => {
-                    Box::new(Plan::new(exact, frame, mesh, Without::default(), like, MOST_WORK)?)
-                }
+                None => Box::new(SolverRuns::new(
+                    exact,
+                    frame,
+                    mesh,
+                    Without::default(),
+                    like,
+                    MOST_WORK,
+                )?),
             };
-            Level::new(exact, frame, mesh, solvers)
+            MeshLevel::new(exact, frame, mesh, solvers)
         };
         let is_coarser = |it: &&Mesh| it.cell_size > REFINED * mesh.cell_size;
         let coarse = meshes.iter().rev().find(is_coarser).map(level).transpose()?;
@@ -153,7 +158,7 @@ impl<'a, const D: usize> Levels<'a, D> {
 
     /// Combines the errors on two meshes: the part that does not fall with h^2, and, weighted, the part that does. Errors of
     /// one mesh stay as they are.
-    pub fn together(&self, of: impl Fn(&Level<'a, D>) -> Option<Vec<f64>>) -> Option<Vec<f64>> {
+    pub fn together(&self, of: impl Fn(&MeshLevel<'a, D>) -> Option<Vec<f64>>) -> Option<Vec<f64>> {
         let fine = of(&self.fine)?;
         let Some(level) = &self.coarse else { return Some(fine) };
         let coarse = of(level)?;
@@ -168,7 +173,7 @@ impl<'a, const D: usize> Levels<'a, D> {
     /// The error that a hypothesis makes on a mesh with a method, less a right solver's error. `size` is for the finest mesh.
     pub fn wrong(
         &self,
-        level: &Level<'a, D>,
+        level: &MeshLevel<'a, D>,
         method: usize,
         hypothesis: &Hypothesis<D>,
         size: &[f64],
@@ -185,7 +190,7 @@ impl<'a, const D: usize> Levels<'a, D> {
     /// [`wrong`](Self::wrong).
     pub fn roughly(
         &self,
-        level: &Level<'a, D>,
+        level: &MeshLevel<'a, D>,
         hypothesis: &Hypothesis<D>,
         size: &[f64],
     ) -> Option<Vec<f64>> {
@@ -194,7 +199,12 @@ impl<'a, const D: usize> Levels<'a, D> {
     }
 
     /// Converts a size on the finest mesh to a size on a mesh.
-    fn on_mesh(&self, level: &Level<'a, D>, hypothesis: &Hypothesis<D>, size: &[f64]) -> Vec<f64> {
+    fn on_mesh(
+        &self,
+        level: &MeshLevel<'a, D>,
+        hypothesis: &Hypothesis<D>,
+        size: &[f64],
+    ) -> Vec<f64> {
         let steps = level.mesh.time_step.zip(self.fine.mesh.time_step);
         let sizes = (level.mesh.cell_size, self.fine.mesh.cell_size);
         let (own, finest) = steps.unwrap_or(sizes);
@@ -203,7 +213,12 @@ impl<'a, const D: usize> Levels<'a, D> {
     }
 
     /// Coefficients of the errors of a wrong method, less the coefficients of the right method.
-    fn beyond(&self, level: &Level<'a, D>, method: usize, errors: &[Vec<f64>]) -> Option<Vec<f64>> {
+    fn beyond(
+        &self,
+        level: &MeshLevel<'a, D>,
+        method: usize,
+        errors: &[Vec<f64>],
+    ) -> Option<Vec<f64>> {
         let wrong = level.sight.see(errors)?.coefficients;
         Some(less(&wrong, 1.0, level.right[method].as_ref()?))
     }
@@ -211,7 +226,7 @@ impl<'a, const D: usize> Levels<'a, D> {
 
 /// The orders of right methods, from their errors on the finest mesh and from solvers with larger cells.
 fn orders<const D: usize>(
-    fine: &Level<'_, D>,
+    fine: &MeshLevel<'_, D>,
     solvers: &dyn Responses<'_, D>,
     coarse: &[Option<Vec<f64>>],
 ) -> Vec<Option<f64>> {

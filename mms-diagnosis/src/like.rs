@@ -7,7 +7,7 @@ use crate::changed::Without;
 use crate::evidence::{Frame, Mesh};
 use crate::exact::{Exact, Quantity};
 use crate::level::MOST_WORK;
-use crate::run::{Obstacle, Plan, Responses};
+use crate::run::{Obstacle, Responses, SolverRuns};
 use crate::smooth::size;
 
 /// Computes the order with which the error of a right method falls on a field, for each quantity of results of two meshes.
@@ -24,7 +24,7 @@ pub fn orders_of<const D: usize>(
 where
     f64: Solve<D>,
 {
-    let fine = Plan::new(exact, frame, mesh, Without::default(), Some(method), MOST_WORK)?;
+    let fine = SolverRuns::new(exact, frame, mesh, Without::default(), Some(method), MOST_WORK)?;
     let coarse = fine.coarser();
     let errors = |plan: &dyn Responses<'_, D>| {
         let errors = plan.right(plan.methods() - 1).ok_or(Obstacle::Diverges(None))?;

@@ -1,7 +1,9 @@
 //! The list of hypotheses for people.
 
 use crate::exact::Exact;
-use crate::hypothesis::{Change, Hypothesis, Kind, Of, Size, all, of_tangent, voigt_orders};
+use crate::hypothesis::{
+    Change, Hypothesis, HypothesisKind, Of, Size, all, of_tangent, voigt_orders,
+};
 use crate::patterns;
 
 /// A hypothesis, or a size of one that has a name of its own.
@@ -12,7 +14,7 @@ pub struct Listed {
     /// The description of the mistake.
     pub says: String,
     /// Whether it is a mistake or a choice.
-    pub kind: Kind,
+    pub kind: HypothesisKind,
     /// The part of the problem that it changes.
     pub changes: &'static str,
     /// The steps of the ladder that show it.
@@ -30,7 +32,7 @@ pub fn listed<const D: usize>(exact: &Exact<'_, D>) -> Vec<Listed> {
     found.extend(patterns::LISTED.iter().map(|(title, says)| Listed {
         title: (*title).into(),
         says: (*says).into(),
-        kind: Kind::Mistake,
+        kind: HypothesisKind::Mistake,
         changes: "output",
         shown_by: "results",
         size_of: None,

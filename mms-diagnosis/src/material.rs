@@ -20,13 +20,13 @@ pub struct Material<'a> {
 type Field<const D: usize> = Box<dyn ManufacturedField<f64, D>>;
 
 /// Fields made so far, by the parameter and the bits of its factor.
-type Made<const D: usize> = HashMap<(usize, u64), Option<Arc<dyn ManufacturedField<f64, D>>>>;
+type FieldCache<const D: usize> = HashMap<(usize, u64), Option<Arc<dyn ManufacturedField<f64, D>>>>;
 
 /// The parameters of a material for fields in D dimensions; each field is made once.
 pub struct Own<'a, const D: usize> {
     material: &'a Material<'a>,
     of: fn(Scene<f64>) -> Option<Field<D>>,
-    made: Mutex<Made<D>>,
+    made: Mutex<FieldCache<D>>,
 }
 
 impl<'a, const D: usize> Own<'a, D> {

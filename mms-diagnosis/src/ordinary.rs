@@ -5,13 +5,13 @@ use mms_runtime::body::{Filling, bounding_box};
 use mms_runtime::study::Solve;
 
 use crate::answer::{
-    Diagnosis, Explained, Fields, Finding, Like, Limits, Ranked, Rung, ranked, unseen,
+    Diagnosis, DiagnosisFinding, Explained, Fields, Like, Limits, Ranked, Rung, ranked, unseen,
 };
 use crate::evidence::{Frame, Mesh};
 use crate::exact::Exact;
 use crate::falls::OfOrder;
 use crate::hypothesis::{Change, Hypothesis, earlier_velocity};
-use crate::level::{Level, Levels, on_all_processors};
+use crate::level::{Levels, MeshLevel, on_all_processors};
 use crate::pair;
 use crate::place;
 use crate::rank::{Effect, Error, explain, explain_usual};
@@ -36,7 +36,7 @@ const EXPLAINED: f64 = 0.9;
 const PROMISING: f64 = 0.5;
 
 /// The comparison of results with every hypothesis.
-struct Look<'a, const D: usize> {
+struct HypothesisSearch<'a, const D: usize> {
     exact: &'a Exact<'a, D>,
     frame: &'a Frame<D>,
     levels: Levels<'a, D>,
@@ -47,7 +47,7 @@ struct Look<'a, const D: usize> {
     error: Error,
 }
 
-impl<'a, const D: usize> Look<'a, D>
+impl<'a, const D: usize> HypothesisSearch<'a, D>
 where
     f64: Solve<D>,
 {
@@ -58,15 +58,19 @@ where
         hypotheses: &'a [Hypothesis<D>],
         solver: &Solver,
     ) -> Self {
-        let own = |level: &Level<'_, D>| Some(level.seen.coefficients.clone());
+        let own = |level: &MeshLevel<'_, D>| Some(level.seen.coefficients.clone());
         let right = |method| levels.together(|level| level.right(method));
         let free = levels.together(|level| earlier(exact, &levels, level));
         let free = free.filter(|it| size(it) > 0.0);
         let edge = exact.length() / levels.fine.mesh.cell_size;
         let is_asked = solver.like.is_some();
         // The error of a method cancels against a right run of the same solver.
-        let yardsticks = if solver.is_beside { Vec::new() } else { yardsticks(&levels, is_asked) };
-        let floor = match solver.is_beside {
+        let yardsticks = if solver.is_compared_with_right_run {
+            Vec::new()
+        } else {
+            yardsticks(&levels, is_asked)
+        };
+        let floor = match solver.is_compared_with_right_run {
             true => ROUNDING,
             false => LEAST / edge.powi(levels.degree() as i32 + 1),
         };
@@ -75,10 +79,10 @@ where
         let error = Error::new(
             levels.together(own).unwrap_or_default(),
             known.iter().filter_map(|it| right(*it)).collect(),
-            free.filter(|_| !solver.is_beside).into_iter().collect(),
+            free.filter(|_| !solver.is_compared_with_right_run).into_iter().collect(),
             floor,
         );
-        Look { exact, frame, levels, hypotheses, yardsticks, error }
+        HypothesisSearch { exact, frame, levels, hypotheses, yardsticks, error }
     }
 
     /// The sorted errors of right methods on the finest mesh; the floor if there are none.
@@ -122,7 +126,7 @@ where
     }
 
     /// The error that a hypothesis of this size makes with a method, less the error of a right solver.
-    fn by(&self, method: usize, hypothesis: &Hypothesis<D>, at: &[f64]) -> Option<Vec<f64>> {
+    fn response(&self, method: usize, hypothesis: &Hypothesis<D>, at: &[f64]) -> Option<Vec<f64>> {
         self.levels.together(|level| self.levels.wrong(level, method, hypothesis, at))
     }
 
@@ -169,7 +173,7 @@ where
 
     /// Finds the part of the error that each hypothesis explains, on all processors. If none explains it, large mistakes
     /// are tried: the response to a large mistake is no multiple of the response to a small one.
-    fn all(&self, is_right: bool) -> Result<Vec<Explained>, Obstacle> {
+    fn explain_all(&self, is_right: bool) -> Result<Vec<Explained>, Obstacle> {
         let seen: Vec<_> = self.frame.quantities.iter().map(|(it, _)| *it).collect();
         let each =
             |says: &str, of: &(dyn Fn(usize, &Hypothesis<D>) -> Option<Explained> + Sync)| {
@@ -223,7 +227,7 @@ where
 fn earlier<'a, const D: usize>(
     exact: &Exact<'_, D>,
     levels: &Levels<'a, D>,
-    level: &Level<'a, D>,
+    level: &MeshLevel<'a, D>,
 ) -> Option<Vec<f64>>
 where
     f64: Solve<D>,
@@ -231,24 +235,24 @@ where
     levels.wrong(level, 0, &earlier_velocity(), &[exact.time_step / 2.0])
 }
 
-impl<const D: usize> Effect<D> for Look<'_, D>
+impl<const D: usize> Effect<D> for HypothesisSearch<'_, D>
 where
     f64: Solve<D>,
 {
     fn response(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<f64>> {
         let rough = self.levels.together(|level| self.levels.roughly(level, hypothesis, size));
-        let Some(rough) = rough else { return self.by(0, hypothesis, size) };
+        let Some(rough) = rough else { return self.response(0, hypothesis, size) };
         let directions = [rough];
         let (_, remains) = self.error.explain(&directions, &[]);
         let [rough] = directions;
         if self.error.share(&remains) < LIKELY {
             return Some(rough);
         }
-        self.by(0, hypothesis, size).or(Some(rough))
+        self.response(0, hypothesis, size).or(Some(rough))
     }
 
     /// The differences of other methods' responses from the first's; none for output or a hypothesis that explains too little.
-    fn doubts(
+    fn other_methods(
         &self,
         hypothesis: &Hypothesis<D>,
         sizes: &[Vec<f64>],
@@ -263,7 +267,7 @@ where
         let is_there = |it: &usize| *it < methods;
         let pairs = sizes.iter().zip(responses);
         let doubts = |(at, first): (&Vec<f64>, &Vec<f64>)| {
-            let other = |method| Some(less(&self.by(method, hypothesis, at)?, 1.0, first));
+            let other = |method| Some(less(&self.response(method, hypothesis, at)?, 1.0, first));
             OTHERS.into_iter().filter(is_there).filter_map(other).collect::<Vec<_>>()
         };
         pairs.flat_map(doubts).collect()
@@ -310,8 +314,8 @@ where
 {
     let (like, falls) = (solver.like.as_ref(), solver.falls.as_ref());
     let levels = Levels::new(exact, frame, meshes, like)?;
-    let look = Look::new(exact, frame, levels, hypotheses, solver);
-    let explained = look.all(falls.is_some_and(|it| it.is_right))?;
+    let look = HypothesisSearch::new(exact, frame, levels, hypotheses, solver);
+    let explained = look.explain_all(falls.is_some_and(|it| it.is_right))?;
     let seen = &look.levels.fine.seen;
     let (error, ordinary) = (size(&seen.coefficients), look.ordinary());
     let mut needs = Vec::new();
@@ -334,24 +338,29 @@ where
     let vanishes = match falls {
         Some(falls) => falls.is_right,
         // If the error is 0, it has no order.
-        None => solver.is_beside || order.is_none_or(|it| it.is_nan() || it >= VANISHES),
+        None => {
+            solver.is_compared_with_right_run
+                || order.is_none_or(|it| it.is_nan() || it >= VANISHES)
+        }
     };
     let is_of_method = vanishes && error <= middle;
     let most = look.most(&ordinary, vanishes && order.is_some());
     let like = look.like(like.is_some());
     let is_free = ranked.first().is_some_and(Ranked::is_free);
     let finding = match limits.finding(&ranked, look.error.excess()) {
-        Finding::Named if is_of_method && is_free => Finding::Nothing,
+        DiagnosisFinding::Named if is_of_method && is_free => DiagnosisFinding::Nothing,
         // Right methods that do not converge on this field make such errors.
-        Finding::Named if !vanishes && is_free && like.is_some() => Finding::Unexplained,
-        Finding::Named => Finding::Named,
-        _ if vanishes && error <= most => Finding::Nothing,
-        _ => Finding::Unexplained,
+        DiagnosisFinding::Named if !vanishes && is_free && like.is_some() => {
+            DiagnosisFinding::Unexplained
+        }
+        DiagnosisFinding::Named => DiagnosisFinding::Named,
+        _ if vanishes && error <= most => DiagnosisFinding::Nothing,
+        _ => DiagnosisFinding::Unexplained,
     };
-    let named = ranked.first().filter(|_| finding == Finding::Named);
+    let named = ranked.first().filter(|_| finding == DiagnosisFinding::Named);
     // The remaining error hides anything smaller.
     let left = match (finding, named) {
-        (Finding::Nothing, _) => size(&look.error.all),
+        (DiagnosisFinding::Nothing, _) => size(&look.error.all),
         (_, Some(best)) => size(&look.error.beyond) * (1.0 - best.explained).max(0.0).sqrt(),
         _ => size(&look.error.beyond),
     };
@@ -367,7 +376,7 @@ where
         expected: [look.least(&ordinary), most],
         falls: falls.cloned(),
         of_order: wrong.and_then(|it| look.of_order(it)),
-        pair: (finding == Finding::Unexplained)
+        pair: (finding == DiagnosisFinding::Unexplained)
             .then(|| pair::best(&look.error, hypotheses, &explained))
             .flatten(),
         like,

@@ -2,10 +2,10 @@
 
 use mms_runtime::Vector;
 
-use crate::answer::{Diagnosis, Finding, Ranked, Rung};
+use crate::answer::{Diagnosis, DiagnosisFinding, Ranked, Rung};
 use crate::evidence::Snapshot;
 use crate::exact::{Exact, vectors};
-use crate::hypothesis::Kind;
+use crate::hypothesis::HypothesisKind;
 use crate::smooth::size;
 
 /// A pattern: its name and its description.
@@ -85,7 +85,7 @@ pub fn or_permutation<const D: usize>(
     found: Diagnosis,
 ) -> Diagnosis {
     let is_smooth = found.place.as_ref().is_none_or(|it| it.smooth >= SMOOTH);
-    if found.finding == Finding::Named && is_smooth {
+    if found.finding == DiagnosisFinding::Named && is_smooth {
         return found;
     }
     Wrong::of(exact, snapshots).and_then(|wrong| wrong.permutation()).unwrap_or(found)
@@ -149,15 +149,15 @@ fn directions(components: usize) -> Vec<Vec<f64>> {
 }
 
 /// An order in which a program may write points by mistake.
-struct Order {
+struct PointOrder {
     name: String,
     /// The index of the number that is written at an index.
     of: Box<dyn Fn(usize) -> usize>,
 }
 
 /// The orders that people confuse, for a list of points in D dimensions.
-fn orders(points: usize, components: usize, dimension: usize) -> Vec<Order> {
-    let of_points = |name: String, of: Box<dyn Fn(usize) -> usize>| Order {
+fn orders(points: usize, components: usize, dimension: usize) -> Vec<PointOrder> {
+    let of_points = |name: String, of: Box<dyn Fn(usize) -> usize>| PointOrder {
         name,
         of: Box::new(move |k| of(k / components) * components + k % components),
     };
@@ -170,7 +170,7 @@ fn orders(points: usize, components: usize, dimension: usize) -> Vec<Order> {
     }
     if components > 1 {
         let of = move |k: usize| k % points * components + k / points;
-        all.push(Order { name: "component by component".into(), of: Box::new(of) });
+        all.push(PointOrder { name: "component by component".into(), of: Box::new(of) });
     }
     for edges in grids(points, dimension) {
         all.extend(transposed(&edges).into_iter().map(|(name, of)| of_points(name, of)));
@@ -226,13 +226,13 @@ fn starts_at_rest<const D: usize>(exact: &Exact<'_, D>, points: &[Vector<f64, D>
 /// The diagnosis of a pattern, from the error and the part that the pattern leaves, each over the size of the exact solution.
 fn named((name, says): Pattern, [off, left]: [f64; 2], scale: f64) -> Diagnosis {
     Diagnosis {
-        finding: Finding::Named,
+        finding: DiagnosisFinding::Named,
         rung: Rung::Results,
         ranked: vec![Ranked {
             hypothesis: usize::MAX,
             name,
             says: says.into(),
-            kind: Kind::Mistake,
+            kind: HypothesisKind::Mistake,
             face: None,
             which: None,
             factor: Vec::new(),

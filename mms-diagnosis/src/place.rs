@@ -3,7 +3,7 @@
 use mms_runtime::body::bounding_box;
 use mms_runtime::{Body, Face, Vector};
 
-use crate::answer::Place;
+use crate::answer::ErrorPlace;
 use crate::body::{away, faces};
 use crate::evidence::{Mesh, Snapshot, nearest};
 use crate::exact::{Exact, vectors};
@@ -19,7 +19,11 @@ const CROWDED: f64 = 3.0;
 type Weighed<const D: usize> = (Vector<f64, D>, f64);
 
 /// Finds where the error of the finest mesh is at the last time; `smooth` is the smooth part of its square.
-pub fn of<const D: usize>(exact: &Exact<'_, D>, meshes: &[Mesh], smooth: f64) -> Option<Place> {
+pub fn of<const D: usize>(
+    exact: &Exact<'_, D>,
+    meshes: &[Mesh],
+    smooth: f64,
+) -> Option<ErrorPlace> {
     let fine = meshes.last()?;
     let snapshot = fine.snapshots.last()?;
     let points = squared(exact, snapshot)?;
@@ -37,7 +41,7 @@ pub fn of<const D: usize>(exact: &Exact<'_, D>, meshes: &[Mesh], smooth: f64) ->
         let refined = before.cell_size / fine.cell_size;
         Some((coarse? / last?).ln() / refined.ln()).filter(|it| it.is_finite())
     });
-    Some(Place {
+    Some(ErrorPlace {
         at: at.as_slice().to_vec(),
         time: snapshot.time,
         face,

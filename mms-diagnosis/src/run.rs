@@ -136,7 +136,7 @@ pub trait Responses<'a, const D: usize>: Sync {
 }
 
 /// Runs of this project's own solver.
-pub struct Plan<'a, const D: usize> {
+pub struct SolverRuns<'a, const D: usize> {
     exact: &'a Exact<'a, D>,
     frame: &'a Frame<D>,
     mesh: &'a Mesh,
@@ -216,7 +216,7 @@ impl Observer for States<'_> {
     }
 }
 
-impl<'a, const D: usize> Plan<'a, D>
+impl<'a, const D: usize> SolverRuns<'a, D>
 where
     f64: Solve<D>,
 {
@@ -262,7 +262,7 @@ where
             Method { setup, ..like.clone() }
         }));
         let samplings = methods.iter().map(|_| OnceLock::new()).collect();
-        Ok(Plan { exact, frame, mesh, without, cells, methods, samplings })
+        Ok(SolverRuns { exact, frame, mesh, without, cells, methods, samplings })
     }
 
     /// The cells along each axis: nearly cubes, with the last one ending at the end of the body.
@@ -334,7 +334,7 @@ where
     }
 }
 
-impl<'a, const D: usize> Responses<'a, D> for Plan<'a, D>
+impl<'a, const D: usize> Responses<'a, D> for SolverRuns<'a, D>
 where
     f64: Solve<D>,
 {
@@ -380,7 +380,7 @@ where
     fn coarser(&self) -> Box<dyn Responses<'a, D> + 'a> {
         let samplings = self.methods.iter().map(|_| OnceLock::new()).collect();
         let (cells, methods) = (self.cells.div_ceil(2), self.methods.clone());
-        Box::new(Plan { cells, methods, samplings, ..*self })
+        Box::new(SolverRuns { cells, methods, samplings, ..*self })
     }
 }
 

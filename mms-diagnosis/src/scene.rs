@@ -19,7 +19,7 @@ use crate::run::Obstacle;
 use crate::smooth::Smooth;
 use crate::solver::Solver;
 use crate::state::{self, Response};
-use crate::table::{self, Measure, Table};
+use crate::table::{self, Measure, StressTable};
 use crate::{like, ordinary, patterns, place, step, tangent};
 
 /// The evidence for a diagnosis.
@@ -34,9 +34,9 @@ pub enum Evidence {
         cell_size: f64,
     },
     /// Stresses of a law at given H: numbers point by point, tensors by rows.
-    Law(LawOf),
+    Law(StressData),
     /// Tangents of a law at given H.
-    Tangent(TangentOf),
+    Tangent(TangentData),
 }
 
 impl Evidence {
@@ -66,7 +66,7 @@ impl Evidence {
 }
 
 /// The stresses of a law.
-pub struct LawOf {
+pub struct StressData {
     /// X; empty if it is not given.
     pub reference: Vec<f64>,
     /// H.
@@ -82,7 +82,7 @@ pub struct LawOf {
 }
 
 /// The tangents of a law.
-pub struct TangentOf {
+pub struct TangentData {
     /// X; empty if it is not given.
     pub reference: Vec<f64>,
     /// H.
@@ -368,12 +368,12 @@ fn tensors<const D: usize>(numbers: &[f64]) -> Vec<Matrix<f64, D>> {
 
 fn of_law<const D: usize>(
     exact: &Exact<'_, D>,
-    law: &LawOf,
+    law: &StressData,
     hypotheses: Vec<Hypothesis<D>>,
 ) -> Result<Diagnosis, Obstacle> {
     let (gradient, stress) = (tensors(&law.gradient), tensors(&law.stress));
     let reference = places(exact, &law.reference, gradient.len())?;
-    let table = Table {
+    let table = StressTable {
         reference,
         gradient,
         measure: law.measure,
@@ -386,12 +386,12 @@ fn of_law<const D: usize>(
 
 fn of_tangent<const D: usize>(
     exact: &Exact<'_, D>,
-    law: &TangentOf,
+    law: &TangentData,
     hypotheses: Vec<Hypothesis<D>>,
 ) -> Result<Diagnosis, Obstacle> {
     let gradient = tensors(&law.gradient);
     let reference = places(exact, &law.reference, gradient.len())?;
     let (tangent, rounding) = (law.tangent.clone(), law.rounding);
-    let table = tangent::Table { reference, gradient, tangent, rounding };
+    let table = tangent::TangentTable { reference, gradient, tangent, rounding };
     tangent::diagnose(exact, &table, hypotheses).ok_or(Obstacle::SingularDeformation)
 }

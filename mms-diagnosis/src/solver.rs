@@ -15,5 +15,5 @@ pub struct Solver {
     /// The decrease of its errors from mesh to mesh, for results of two meshes or more.
     pub falls: Option<Falls>,
     /// Whether the results are compared with a right run of the same solver, which has the same errors.
-    pub is_beside: bool,
+    pub is_compared_with_right_run: bool,
 }

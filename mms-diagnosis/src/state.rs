@@ -8,7 +8,7 @@
 use mms_runtime::{Refusal, Vector};
 
 pub use crate::answer::Computed;
-use crate::answer::{Diagnosis, Finding, Limits, Rung, ranked, unseen};
+use crate::answer::{Diagnosis, DiagnosisFinding, Limits, Rung, ranked, unseen};
 use crate::changed::{Changed, Without};
 use crate::exact::Exact;
 use crate::hypothesis::{Change, Given, Hypothesis, MotionPart};
@@ -74,7 +74,7 @@ impl Response {
             add(&mut halves[at % 2], &weak.functions(x), &((values[at] - smooth) * volume));
         }
         let rest =
-            if own.is_empty() { right.to_vec() } else { less(right, 1.0, &weak.paired(&own)) };
+            if own.is_empty() { right.to_vec() } else { less(right, 1.0, &weak.integrate(&own)) };
         let [first, second] = halves;
         let all = less(&less(&first, -1.0, &second), 1.0, &rest);
         [all, less(&first, 1.0, &second)]
@@ -89,7 +89,7 @@ impl Response {
     ) -> Vec<Vector<f64, D>> {
         match self.computed {
             Computed::Acceleration => weak.applied(&self.without, x),
-            Computed::Residual => weak.left_over(&self.without, x),
+            Computed::Residual => weak.residual(&self.without, x),
             Computed::NodalResidual => Vec::new(),
         }
     }
@@ -105,7 +105,7 @@ pub fn diagnose<const D: usize>(
     hypotheses: &[Hypothesis<D>],
 ) -> Result<Diagnosis, Refusal> {
     let right = Right::new(exact, response.time, response.reference.len() / D, response.without)?;
-    let Right { weak, sums, off } = &right;
+    let Right { weak, sums, relative_error: off } = &right;
     let is_shown = |change: &Change<D>| match change {
         Change::Force(_) | Change::Stress(..) | Change::Surface(_) => true,
         Change::Loads(..) | Change::Density => true,
@@ -126,7 +126,7 @@ pub fn diagnose<const D: usize>(
         let later = exact.acceleration(response.time + step, x);
         let now = exact.acceleration(response.time, x);
         let change = later.iter().zip(&now).map(|(later, now)| later - now).collect();
-        scaled(weak.paired(&weak.per_volume(x, change)))
+        scaled(weak.integrate(&weak.per_volume(x, change)))
     });
     let OfElements { methods, size: of_elements } =
         weak.of_elements(response.computed, &response.without);
@@ -151,7 +151,7 @@ pub fn diagnose<const D: usize>(
             let right = v.clone();
             change(&given, MotionPart::Velocity(&mut v));
             let change = v.iter().zip(right).map(|(v, right)| (v - right) / step).collect();
-            return scaled(weak.paired(&weak.per_volume(x, change)));
+            return scaled(weak.integrate(&weak.per_volume(x, change)));
         }
         let density = match (&hypothesis.change, at) {
             (Change::Density | Change::Mass, [factor, ..]) => *factor,
@@ -190,7 +190,7 @@ pub fn diagnose<const D: usize>(
         expected: [floor, most],
         falls: None,
         of_order: None,
-        pair: (finding == Finding::Unexplained)
+        pair: (finding == DiagnosisFinding::Unexplained)
             .then(|| pair::best(&error, hypotheses, &explained))
             .flatten(),
         like: None,

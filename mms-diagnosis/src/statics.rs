@@ -53,13 +53,13 @@ struct System<'a, const D: usize> {
     /// H and P N of the exact motion on the pieces of faces without given motion.
     faces: Vec<OnFace<D>>,
     /// The size of the forces of the stress of the exact motion.
-    resisted: f64,
+    stress_force_size: f64,
     /// The tangent of the right law.
     tangent: LU<f64, Dyn, Dyn>,
 }
 
 /// The forces that a mistake puts out of balance at the exact motion.
-struct Put {
+struct Imbalance {
     /// The loads, which do not depend on the motion.
     loads: DVector<f64>,
     /// The sum of all forces; `None` if it is not finite.
@@ -67,7 +67,8 @@ struct Put {
 }
 
 /// A way to find the coefficients of the functions that bring a mistake into balance.
-type By<'a, const D: usize> = fn(&System<'a, D>, &Changed<'_, D>, &Put) -> Option<DVector<f64>>;
+type SolveMethod<'a, const D: usize> =
+    fn(&System<'a, D>, &Changed<'_, D>, &Imbalance) -> Option<DVector<f64>>;
 
 /// A piece of a face.
 struct OnFace<const D: usize> {
@@ -109,8 +110,8 @@ impl<'a, const D: usize> System<'a, D> {
         });
         let faces = faces.collect();
         let tangent = tangent(exact, &weak, &gradient)?.lu();
-        let resisted = DVector::from_vec(weak.resisted(stress.iter().copied())).norm();
-        let system = System { weak, gradient, stress, force, faces, resisted, tangent };
+        let stress_force_size = DVector::from_vec(weak.stress_term(stress.iter().copied())).norm();
+        let system = System { weak, gradient, stress, force, faces, stress_force_size, tangent };
         system.tangent.is_invertible().then_some(system)
     }
 
@@ -122,7 +123,7 @@ impl<'a, const D: usize> System<'a, D> {
         field.body_force(time, x, &mut b);
         field.density(x, &mut density);
         let own = b.iter().zip(density).zip(&self.force).map(|((b, rho), right)| b * rho - right);
-        let mut sums = weak.paired(&own.collect::<Vec<_>>());
+        let mut sums = weak.integrate(&own.collect::<Vec<_>>());
         let position: Vec<_> = self.faces.iter().map(|it| it.position).collect();
         let gradient: Vec<_> = self.faces.iter().map(|it| it.gradient).collect();
         let mut tau = vec![Matrix::zeros(); position.len()];
@@ -150,29 +151,33 @@ impl<'a, const D: usize> System<'a, D> {
             self.gradient.iter().zip(slopes).map(|(h, of)| h + gradient(of, parts)).collect();
         let stress = weak.stress(field, &moved);
         let changed = stress.iter().zip(&self.stress).map(|(own, right)| own - right);
-        let sums = loads + DVector::from_vec(weak.resisted(changed));
+        let sums = loads + DVector::from_vec(weak.stress_term(changed));
         sums.iter().all(|it| it.is_finite()).then_some(sums)
     }
 
     /// The forces that a mistake puts out of balance at the exact motion.
-    fn put(&self, field: &Changed<'_, D>) -> Put {
+    fn imbalance(&self, field: &Changed<'_, D>) -> Imbalance {
         let loads = self.loads(field);
         let all = self.unbalanced(field, &loads, &DVector::zeros(self.weak.count()));
-        Put { loads, all }
+        Imbalance { loads, all }
     }
 
     /// Whether a mistake puts more than rounding out of balance at the exact motion.
-    fn sees(&self, put: &Put) -> bool {
-        put.all.as_ref().is_none_or(|all| all.norm() > ROUNDING * self.resisted)
+    fn is_significant(&self, imbalance: &Imbalance) -> bool {
+        imbalance.all.as_ref().is_none_or(|all| all.norm() > ROUNDING * self.stress_force_size)
     }
 
     /// The coefficients of the functions that bring a small mistake into balance, by linearisation.
-    fn linear(&self, _: &Changed<'_, D>, put: &Put) -> Option<DVector<f64>> {
-        self.tangent.solve(put.all.as_ref()?)
+    fn linear(&self, _: &Changed<'_, D>, imbalance: &Imbalance) -> Option<DVector<f64>> {
+        self.tangent.solve(imbalance.all.as_ref()?)
     }
 
     /// The coefficients at which a mistake is in balance; `None` if there are none. Applies a large mistake in increments.
-    fn balance(&self, field: &Changed<'_, D>, Put { loads, all }: &Put) -> Option<DVector<f64>> {
+    fn balance(
+        &self,
+        field: &Changed<'_, D>,
+        Imbalance { loads, all }: &Imbalance,
+    ) -> Option<DVector<f64>> {
         let (none, all) = (DVector::zeros(self.weak.count()), all.as_ref()?);
         if let Some(found) = self.near(field, &self.tangent, (&none, all), loads) {
             return Some(found);
@@ -301,7 +306,7 @@ fn tangent<const D: usize>(
 }
 
 /// The coefficients of the functions for each hypothesis and size.
-type Found = HashMap<(usize, Vec<u64>), Option<DVector<f64>>>;
+type CoefficientCache = HashMap<(usize, Vec<u64>), Option<DVector<f64>>>;
 
 /// Equilibrium of a field, for results of any mesh.
 pub struct Equilibrium<'a, const D: usize> {
@@ -310,7 +315,7 @@ pub struct Equilibrium<'a, const D: usize> {
     /// The error of elements of degree 1, for the cell size of the exact solution.
     of_elements: DVector<f64>,
     /// The responses to mistakes, and the responses to small mistakes.
-    found: [Mutex<Found>; 2],
+    found: [Mutex<CoefficientCache>; 2],
 }
 
 impl<'a, const D: usize> Equilibrium<'a, D> {
@@ -347,17 +352,17 @@ impl<'a, const D: usize> Equilibrium<'a, D> {
             return known.clone();
         }
         let by = if is_small { System::linear } else { System::balance };
-        let own = self.made(hypothesis, size, by).filter(|it| it.norm() > 0.0);
+        let own = self.coefficients(hypothesis, size, by).filter(|it| it.norm() > 0.0);
         found().insert(key, own.clone());
         own
     }
 
     /// The coefficients of the functions that a mistake makes, 0 if it changes nothing at rest; `None` without an equilibrium.
-    fn made(
+    fn coefficients(
         &self,
         hypothesis: &Hypothesis<D>,
         size: &[f64],
-        by: By<'a, D>,
+        by: SolveMethod<'a, D>,
     ) -> Option<DVector<f64>> {
         let field = Changed::with(self.exact, Without::default(), hypothesis, size);
         let nothing = || Some(DVector::zeros(self.system.weak.count()));
@@ -367,12 +372,16 @@ impl<'a, const D: usize> Equilibrium<'a, D> {
             | Change::Surface(_)
             | Change::Loads(..)
             | Change::Density => {
-                let put = self.system.put(&field);
-                if self.system.sees(&put) { by(&self.system, &field, &put) } else { nothing() }
+                let imbalance = self.system.imbalance(&field);
+                if self.system.is_significant(&imbalance) {
+                    by(&self.system, &field, &imbalance)
+                } else {
+                    nothing()
+                }
             }
             Change::Condition(Condition::Free) => {
                 let own = System::new(self.exact, self.system.weak.time, &field.domain())?;
-                by(&own, &field, &own.put(&field))
+                by(&own, &field, &own.imbalance(&field))
             }
             // At rest the other mistakes change nothing that is computed.
             _ => nothing(),
@@ -403,7 +412,7 @@ impl<'a, const D: usize> Statics<'a, D> {
 
     /// The errors that a mistake adds to the errors of a right solver; `None` if it has no equilibrium near the exact one.
     pub fn added(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<Vec<f64>>> {
-        self.errors(&self.equilibrium.made(hypothesis, size, System::balance)?)
+        self.errors(&self.equilibrium.coefficients(hypothesis, size, System::balance)?)
     }
 
     /// The errors at the user's points, for each time and quantity.

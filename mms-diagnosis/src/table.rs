@@ -42,7 +42,7 @@ impl Measure {
 
 /// Stresses that a law gave.
 #[derive(Clone, Debug)]
-pub struct Table<const D: usize> {
+pub struct StressTable<const D: usize> {
     /// X; only needed where moduli depend on it.
     pub reference: Vec<Vector<f64, D>>,
     /// H.
@@ -69,7 +69,7 @@ const NEARER: f64 = 1.3;
 /// Diagnoses a law. `None` where an exact stress is not finite.
 pub fn diagnose<const D: usize>(
     exact: &Exact<'_, D>,
-    table: &Table<D>,
+    table: &StressTable<D>,
     mut hypotheses: Vec<Hypothesis<D>>,
 ) -> Option<Diagnosis> {
     let measure = table.measure.known(exact);

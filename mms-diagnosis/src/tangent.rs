@@ -14,7 +14,7 @@ use crate::table::{Measure, to_round_off};
 
 /// Tangents that a law gave.
 #[derive(Clone, Debug)]
-pub struct Table<const D: usize> {
+pub struct TangentTable<const D: usize> {
     /// X; only needed where moduli depend on it.
     pub reference: Vec<Vector<f64, D>>,
     /// H.
@@ -64,7 +64,7 @@ fn reordered(tangent: &[f64], order: [usize; 3]) -> Vec<f64> {
 /// with the body.
 fn slopes_of<const D: usize>(
     exact: &Exact<'_, D>,
-    table: &Table<D>,
+    table: &TangentTable<D>,
     at: &[Matrix<f64, D>],
     change: impl Fn(&[Matrix<f64, D>], &mut [Matrix<f64, D>]),
 ) -> Vec<Slopes<D>> {
@@ -87,7 +87,7 @@ fn slopes_of<const D: usize>(
 /// Diagnoses a law by its tangent. `None` if the exact tangent is not finite.
 pub fn diagnose<const D: usize>(
     exact: &Exact<'_, D>,
-    table: &Table<D>,
+    table: &TangentTable<D>,
     mut hypotheses: Vec<Hypothesis<D>>,
 ) -> Option<Diagnosis> {
     hypotheses.retain(|it| matches!(it.change, Change::Stress(Of::Law, _)));

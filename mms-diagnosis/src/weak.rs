@@ -67,7 +67,7 @@ impl Sums {
     }
 
     /// The size of the largest difference between two terms of one kind.
-    fn apart(&self, other: &Sums) -> f64 {
+    fn largest_difference(&self, other: &Sums) -> f64 {
         let pairs = self.terms().into_iter().zip(other.terms());
         pairs.map(|(a, b)| size(&less(a, 1.0, b))).fold(0.0, f64::max)
     }
@@ -93,7 +93,7 @@ pub struct Right<'a, const D: usize> {
     /// The sums.
     pub sums: Sums,
     /// The error of the sums, relative to the largest sum.
-    pub off: f64,
+    pub relative_error: f64,
 }
 
 impl<'a, const D: usize> Right<'a, D> {
@@ -114,16 +114,16 @@ impl<'a, const D: usize> Right<'a, D> {
         };
         let rules = RULES[D - 1];
         let (mut weak, mut sums) = by(rules[0])?;
-        let mut off = f64::INFINITY;
+        let mut relative_error = f64::INFINITY;
         for &count in &rules[1..] {
             let (finer, found) = by(count)?;
-            off = found.apart(&sums) / found.scale();
+            relative_error = found.largest_difference(&sums) / found.scale();
             (weak, sums) = (finer, found);
-            if off <= AGREED {
+            if relative_error <= AGREED {
                 break;
             }
         }
-        Ok(Right { weak, sums, off })
+        Ok(Right { weak, sums, relative_error })
     }
 }
 
@@ -227,7 +227,7 @@ impl<'a, const D: usize> Weak<'a, D> {
     }
 
     /// int q.w over the body, from q at the points of the quadrature.
-    pub fn paired(&self, values: &[Vector<f64, D>]) -> Vec<f64> {
+    pub fn integrate(&self, values: &[Vector<f64, D>]) -> Vec<f64> {
         let mut sums = vec![0.0; self.count()];
         let functions = self.at_points.chunks(self.count());
         for ((functions, volume), q) in functions.zip(&self.quadrature.volumes).zip(values) {
@@ -237,7 +237,7 @@ impl<'a, const D: usize> Weak<'a, D> {
     }
 
     /// -int P:grad w, from P at the points of the quadrature.
-    pub fn resisted(&self, stress: impl Iterator<Item = Matrix<f64, D>>) -> Vec<f64> {
+    pub fn stress_term(&self, stress: impl Iterator<Item = Matrix<f64, D>>) -> Vec<f64> {
         let mut sums = vec![0.0; self.count()];
         let slopes = self.slopes_at_points.chunks(self.count());
         for ((gradients, volume), p) in slopes.zip(&self.quadrature.volumes).zip(stress) {
@@ -274,9 +274,9 @@ impl<'a, const D: usize> Weak<'a, D> {
         field.body_force(time, x, &mut b);
         let h = self.exact.gradient(time, x);
         Sums {
-            inertia: self.paired(&self.per_volume(x, self.exact.acceleration(time, x))),
-            stress: self.resisted(self.stress(field, &h).into_iter()),
-            force: self.paired(&self.per_volume(x, b)),
+            inertia: self.integrate(&self.per_volume(x, self.exact.acceleration(time, x))),
+            stress: self.stress_term(self.stress(field, &h).into_iter()),
+            force: self.integrate(&self.per_volume(x, b)),
             traction: self.tractions(field),
         }
     }
@@ -319,7 +319,7 @@ impl<'a, const D: usize> Weak<'a, D> {
     }
 
     /// rho0 a less Div P + rho0 b at X, without the omitted terms.
-    pub fn left_over(&self, without: &Without, x: &[Vector<f64, D>]) -> Vec<Vector<f64, D>> {
+    pub fn residual(&self, without: &Without, x: &[Vector<f64, D>]) -> Vec<Vector<f64, D>> {
         let inertia = self.per_volume(x, self.exact.acceleration(self.time, x));
         let applied = self.applied(without, x);
         inertia.iter().zip(applied).map(|(inertia, applied)| inertia - applied).collect()
@@ -351,7 +351,7 @@ impl<const D: usize> Weak<'_, D> {
         let [function, displacement, acceleration, product] = [
             self.of_functions(computed, without, &axes),
             self.of_displacements(without, &axes),
-            self.paired(&self.curved(inertia, &axes)),
+            self.integrate(&self.curved(inertia, &axes)),
             self.of_products(inertia, &axes),
         ];
         let plus = |a: &[f64], b: &[f64]| less(a, -1.0, b);
@@ -405,7 +405,7 @@ impl<const D: usize> Weak<'_, D> {
         let mut sums = vec![0.0; self.count()];
         if computed == Computed::NodalResidual {
             let x = &self.quadrature.points;
-            let values = self.left_over(without, x);
+            let values = self.residual(without, x);
             for ((x, volume), q) in x.iter().zip(&self.quadrature.volumes).zip(&values) {
                 add(&mut sums, &self.curvature(x, axes), &(q * *volume));
             }
@@ -432,7 +432,7 @@ impl<const D: usize> Weak<'_, D> {
         let bent: Vec<_> = bent.iter().zip(&h).map(|(bent, h)| h + bent * part).collect();
         let right = Changed::right(self.exact, *without);
         let [bent, straight] =
-            [bent, h].map(|h| self.resisted(self.stress(&right, &h).into_iter()));
+            [bent, h].map(|h| self.stress_term(self.stress(&right, &h).into_iter()));
         less(&bent, 1.0, &straight).iter().map(|it| it / part).collect()
     }
 

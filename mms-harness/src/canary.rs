@@ -9,19 +9,19 @@ use mms_exact::{Input, Open};
 use mms_spec::quantity::Quantity;
 
 use crate::only::Only;
-use crate::plan::{Plan, Planned, templates};
+use crate::plan::{CampaignPlan, PlannedStudy, templates};
 
 /// Plans the runs of a file with -b in the data of each run. Leaves out studies of fields without a body force.
 ///
 /// # Errors
-/// The errors of [`Plan::new`]; a solver that does not get b from the campaign.
+/// The errors of [`CampaignPlan::new`]; a solver that does not get b from the campaign.
 pub fn plan(
     path: &Path,
     campaign: Campaign,
     only: &[Only],
     open: Open<'_>,
-) -> anyhow::Result<Plan> {
-    let mut plan = Plan::with(path, campaign, only, open, true)?;
+) -> anyhow::Result<CampaignPlan> {
+    let mut plan = CampaignPlan::with(path, campaign, only, open, true)?;
     plan.studies.retain(|it| has_force(&it.input));
     validate_force(&plan)?;
     Ok(plan)
@@ -34,10 +34,10 @@ fn has_force(input: &Input) -> bool {
 }
 
 /// Refuses a solver that does not get b from the campaign, because its runs cannot get another b.
-fn validate_force(plan: &Plan) -> anyhow::Result<()> {
+fn validate_force(plan: &CampaignPlan) -> anyhow::Result<()> {
     let mut words = templates(&plan.campaign).flat_map(Template::placeholders);
     let names_factor = words.any(|it| it == Placeholder::ForceFactor);
-    let is_static = |it: &Planned| it.input.is_static();
+    let is_static = |it: &PlannedStudy| it.input.is_static();
     let has_state = plan.campaign.solver.state().is_some() && plan.studies.iter().all(is_static);
     if plan.target.is_some() || names_factor || has_state {
         return Ok(());

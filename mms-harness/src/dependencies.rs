@@ -48,7 +48,7 @@ pub struct Dependencies {
 }
 
 /// The folders in which files of a command are searched.
-pub struct Place<'a> {
+pub struct SearchFolders<'a> {
     /// The folder of the campaign file.
     pub here: &'a Path,
     /// The working directory; `None` if it is a folder of the run.
@@ -57,7 +57,7 @@ pub struct Place<'a> {
     pub digests: &'a Digests,
 }
 
-impl Place<'_> {
+impl SearchFolders<'_> {
     /// The files that the words of a command name. A word that names no file is split as a shell or an option would split it:
     /// `sh -c "./solve > log"` starts `./solve`, and `--input=a.txt` names `a.txt`.
     pub fn dependencies(&self, words: &[String]) -> Dependencies {
@@ -105,7 +105,7 @@ const MOST_INTERPRETERS: usize = 4;
 
 /// The search for the files of a command.
 struct Search<'a> {
-    place: &'a Place<'a>,
+    place: &'a SearchFolders<'a>,
     folders: Vec<PathBuf>,
     /// The variable PATH.
     path: String,
@@ -294,7 +294,7 @@ mod tests {
         let digests = Digests::default();
         let of = |directory: Option<&Path>, words: &[&str]| {
             let words: Vec<String> = words.iter().map(|it| (*it).to_owned()).collect();
-            Place { here, directory, digests: &digests }.dependencies(&words)
+            SearchFolders { here, directory, digests: &digests }.dependencies(&words)
         };
         for (directory, words, found, is_complete) in [
             (here, vec!["./solve", "8"], vec!["solve"], true),
@@ -341,7 +341,7 @@ mod tests {
         mms_files::write::write_whole(&at("own"), "1").unwrap();
         symlink("first", at("solve")).unwrap();
         let digests = Digests::default();
-        let place = Place { here, directory: Some(here), digests: &digests };
+        let place = SearchFolders { here, directory: Some(here), digests: &digests };
         let all = place.dependencies(&["./solve".to_owned()]);
         assert_eq!(names(&all), ["own", "solve"]);
         assert!(all.files.keys().any(|it| it.ends_with("/env")));

@@ -8,15 +8,15 @@ use mms_judge::results::{Comparison, Measurement, Reading, Results, measure};
 use mms_judge::{Judgements, Unfollowed};
 use mms_results::Snapshot;
 
-use super::plan::{Job, Judging, Planned};
-use super::work::{Outcome, Work};
+use super::plan::{Job, Judging, PlannedStudy};
+use super::work::{RunOutcome, Work};
 
 /// The judgement of a study.
-pub struct Judged<'a> {
+pub struct JudgedStudy<'a> {
     /// The study.
-    pub planned: &'a Planned,
+    pub planned: &'a PlannedStudy,
     /// The outcomes of its runs.
-    pub outcomes: Vec<Outcome>,
+    pub outcomes: Vec<RunOutcome>,
     /// The errors and verdicts; `None` if it has no results, or not all levels were requested.
     pub judgements: Option<Judgements>,
     /// The reason why its results cannot be judged.
@@ -25,22 +25,27 @@ pub struct Judged<'a> {
     pub warnings: Vec<String>,
 }
 
-impl<'a> Judged<'a> {
+impl<'a> JudgedStudy<'a> {
     /// Judges a study.
     ///
     /// # Errors
     /// Its field cannot be evaluated.
     pub fn new(
         work: &Work<'_>,
-        planned: &'a Planned,
-        outcomes: Vec<Outcome>,
-        provenance: &dyn Fn(&Planned) -> Provenance,
+        planned: &'a PlannedStudy,
+        outcomes: Vec<RunOutcome>,
+        provenance: &dyn Fn(&PlannedStudy) -> Provenance,
     ) -> anyhow::Result<Self> {
-        let mut judged =
-            Judged { planned, outcomes, judgements: None, mistake: None, warnings: Vec::new() };
+        let mut judged = JudgedStudy {
+            planned,
+            outcomes,
+            judgements: None,
+            mistake: None,
+            warnings: Vec::new(),
+        };
         let finished =
             planned.jobs.iter().zip(&judged.outcomes).filter_map(|(job, outcome)| match outcome {
-                Outcome::Finished(finished) => Some((job, finished)),
+                RunOutcome::Finished(finished) => Some((job, finished)),
                 _ => None,
             });
         let mut files = Vec::new();
@@ -49,7 +54,7 @@ impl<'a> Judged<'a> {
             files.push(work.results_of(planned, job, finished)?);
             jobs.push(job);
         }
-        let interrupted = judged.outcomes.contains(&Outcome::Interrupted);
+        let interrupted = judged.outcomes.contains(&RunOutcome::Interrupted);
         if jobs.is_empty() || interrupted || !planned.is_whole() {
             return Ok(judged);
         }
@@ -82,11 +87,11 @@ impl<'a> Judged<'a> {
 
 fn measured(
     exact: &mut Exact,
-    planned: &Planned,
+    planned: &PlannedStudy,
     jobs: &[&Job],
     files: &[String],
 ) -> anyhow::Result<Measurement> {
-    let Planned { study, options, .. } = planned;
+    let PlannedStudy { study, options, .. } = planned;
     let Judging { names, over, quantities: wanted, weight, .. } = options;
     let (memory, is_part) = (study.max_memory, study.part);
     let (weight, over) = (*weight, *over);
@@ -117,11 +122,13 @@ fn measured(
 }
 
 /// Adds the runs without results as stopped runs.
-fn stopped(measured: &mut Measured, planned: &Planned, finished: &[&Job]) {
+fn stopped(measured: &mut Measured, planned: &PlannedStudy, finished: &[&Job]) {
     let is_missing = |job: &&Job| finished.iter().all(|other| other.level != job.level);
     for job in planned.jobs.iter().filter(is_missing) {
         let time_step = planned.study.time_steps.as_ref().and(job.time_step);
-        measured.runs.push(mms_judge::measured::Run { cell_size: planned.size(job), time_step });
+        measured
+            .runs
+            .push(mms_judge::measured::RunSize { cell_size: planned.size(job), time_step });
         for norm in measured.quantities.iter_mut().flat_map(|it| &mut it.norms) {
             norm.errors.push(None);
             norm.floors.push(0.0);
@@ -129,7 +136,7 @@ fn stopped(measured: &mut Measured, planned: &Planned, finished: &[&Job]) {
     }
 }
 
-impl Planned {
+impl PlannedStudy {
     /// h of a run, as the file states it, or the size of its cells.
     pub fn size(&self, job: &Job) -> f64 {
         self.study.h_of(job.level).unwrap_or(job.cell_size)

@@ -13,7 +13,7 @@ use mms_exact::validate_division;
 use mms_exact::wave::sound;
 use mms_exact::{Input, Open, quantities};
 use mms_judge::results::{Over, Start as How, axes, own_roles, weight};
-use mms_judge::table::{Order, Orders};
+use mms_judge::table::{ExpectedOrders, NamedOrder};
 use mms_mechanics::sample::domain;
 use mms_results::names::{Mapping, Names, Role};
 use mms_runtime::Division;
@@ -31,7 +31,7 @@ use super::sources;
 use crate::profile;
 
 /// A campaign, ready to run.
-pub struct Plan {
+pub struct CampaignPlan {
     /// The contents of the file.
     pub campaign: Campaign,
     /// The folder of the file.
@@ -39,19 +39,19 @@ pub struct Plan {
     /// The language in which fields are written.
     pub target: Option<&'static Target>,
     /// The requested studies.
-    pub studies: Vec<Planned>,
+    pub studies: Vec<PlannedStudy>,
     /// The digests of the files that runs depend on.
     pub digests: Digests,
 }
 
 /// A study, with its words resolved.
-pub struct Planned {
+pub struct PlannedStudy {
     /// The contents of the file.
     pub study: Study,
     /// The field.
     pub input: Input,
     /// The field that its runs get in place of `input`, for a canary.
-    pub wrong: Option<Input>,
+    pub canary_input: Option<Input>,
     /// The first and the last time.
     pub window: [f64; 2],
     /// The options for judging its results.
@@ -71,15 +71,15 @@ pub struct Judging {
     /// Whether norms are over points or over cells.
     pub over: Option<Over>,
     /// The expected orders.
-    pub orders: Orders,
+    pub orders: ExpectedOrders,
     /// The column with the weights of means.
     pub weight: Option<Role>,
 }
 
-impl Planned {
+impl PlannedStudy {
     /// The field that its runs get.
-    pub fn given(&self) -> &Input {
-        self.wrong.as_ref().unwrap_or(&self.input)
+    pub fn input_of_runs(&self) -> &Input {
+        self.canary_input.as_ref().unwrap_or(&self.input)
     }
 
     /// Whether all of its levels were requested, so that it can be judged.
@@ -155,7 +155,7 @@ impl Start {
     }
 }
 
-impl Plan {
+impl CampaignPlan {
     /// Plans the runs of a file, all or some; `open` opens their fields.
     ///
     /// # Errors
@@ -191,11 +191,12 @@ impl Plan {
                 let (campaign, here) = (&campaign, here.as_path());
                 let sources = &sources;
                 let digests = &digests;
-                let setting = Setting { campaign, here, target, sources, digests, open, is_canary };
+                let setting =
+                    CampaignContext { campaign, here, target, sources, digests, open, is_canary };
                 studies.push(setting.planned(study, &levels)?);
             }
         }
-        Ok(Plan { campaign, here, target, studies, digests })
+        Ok(CampaignPlan { campaign, here, target, studies, digests })
     }
 }
 
@@ -234,7 +235,7 @@ fn sources(campaign: &Campaign, here: &Path, digests: &Digests) -> anyhow::Resul
 }
 
 /// The data that all studies of a file share.
-struct Setting<'a> {
+struct CampaignContext<'a> {
     campaign: &'a Campaign,
     here: &'a Path,
     target: Option<&'static Target>,
@@ -244,7 +245,7 @@ struct Setting<'a> {
     is_canary: bool,
 }
 
-impl Setting<'_> {
+impl CampaignContext<'_> {
     /// The value of an option of `mms judge` from a word of the file, or a mistake at its place.
     fn option<T>(
         &self,
@@ -283,9 +284,9 @@ impl Setting<'_> {
         })
     }
 
-    fn planned(&self, study: &Study, levels: &[usize]) -> anyhow::Result<Planned> {
+    fn planned(&self, study: &Study, levels: &[usize]) -> anyhow::Result<PlannedStudy> {
         let input = self.field(study, Variation::Nothing)?;
-        let wrong = match self.is_canary {
+        let canary_input = match self.is_canary {
             true => Some(self.field(study, Variation::ForceReversed)?),
             false => None,
         };
@@ -301,10 +302,18 @@ impl Setting<'_> {
         }
         let speed = sound(&input.compiled, &settings)[1];
         let (window, per_cell) = ([first, end], self.per_cell(study, &input)?);
-        let place = Place { setting: self, study, input: &input, window, per_cell, speed };
+        let place = StudyContext { setting: self, study, input: &input, window, per_cell, speed };
         let jobs = levels.iter().map(|&level| place.job(level)).collect::<Result<_, _>>()?;
         let options = self.judging(study, &input)?;
-        Ok(Planned { study: study.clone(), window, options, per_cell, jobs, input, wrong })
+        Ok(PlannedStudy {
+            study: study.clone(),
+            window,
+            options,
+            per_cell,
+            jobs,
+            input,
+            canary_input,
+        })
     }
 
     /// Refuses times for a static field.
@@ -377,21 +386,23 @@ impl Setting<'_> {
         let over = |word: &Spanned<String>| self.option(word, "over", Over::of(&word.value));
         let over = study.over.as_ref().map(over).transpose()?;
         let names = Names { map, columns, profile, own, axes: axes(&input.compiled.field) };
-        let order = |word: &str| word.parse::<Order>().map_err(str::to_owned);
-        let orders = Orders::new(&self.options(&study.order, "order", order)?, study.tolerance);
+        let order = |word: &str| word.parse::<NamedOrder>().map_err(str::to_owned);
+        let orders =
+            ExpectedOrders::new(&self.options(&study.order, "order", order)?, study.tolerance);
         let of = |word: &Spanned<String>| {
             self.option(word, "weight", weight(&word.value).map_err(str::to_owned))
         };
         let weight = study.weight.as_ref().map(of).transpose()?;
         let start = |word: &Spanned<String>| self.option(word, "start", How::of(&word.value));
-        let orders = Orders { start: study.start.as_ref().map(start).transpose()?, ..orders };
+        let orders =
+            ExpectedOrders { start: study.start.as_ref().map(start).transpose()?, ..orders };
         Ok(Judging { quantities, names, over, orders, weight })
     }
 }
 
 /// The data that all runs of a study share.
-struct Place<'a> {
-    setting: &'a Setting<'a>,
+struct StudyContext<'a> {
+    setting: &'a CampaignContext<'a>,
     study: &'a Study,
     input: &'a Input,
     window: [f64; 2],
@@ -400,7 +411,7 @@ struct Place<'a> {
     speed: f64,
 }
 
-impl Place<'_> {
+impl StudyContext<'_> {
     fn job(&self, level: usize) -> anyhow::Result<Job> {
         let study = self.study;
         let cells = study.cells_of(level);
@@ -456,7 +467,7 @@ impl Place<'_> {
 
     /// Adds the data that the result depends on.
     fn with_command(&self, mut job: Job) -> Job {
-        let Setting { campaign, here, .. } = *self.setting;
+        let CampaignContext { campaign, here, .. } = *self.setting;
         let solver = &campaign.solver;
         let value = |it: Placeholder| match it.is_path() {
             true => format!("{{{}}}", it.name()),
@@ -479,7 +490,7 @@ impl Place<'_> {
 
     /// The files that the command of a run depends on.
     fn dependencies(&self, job: &Job) -> Dependencies {
-        let Setting { campaign, here, digests, .. } = *self.setting;
+        let CampaignContext { campaign, here, digests, .. } = *self.setting;
         let value = |it: Placeholder| match it {
             Placeholder::Here => here.to_string_lossy().into_owned(),
             it if it.is_path() => UNKNOWN.to_string(),
@@ -490,7 +501,8 @@ impl Place<'_> {
         let words: Vec<String> = solver.run.iter().map(fill).collect();
         let directory = solver.directory.as_ref().map_or(String::new(), fill);
         let directory = (!directory.contains(UNKNOWN)).then(|| here.join(directory));
-        dependencies::Place { here, directory: directory.as_deref(), digests }.dependencies(&words)
+        dependencies::SearchFolders { here, directory: directory.as_deref(), digests }
+            .dependencies(&words)
     }
 
     fn value(&self, job: &Job, placeholder: Placeholder) -> String {
@@ -548,7 +560,7 @@ pub struct Paths {
     pub here: String,
 }
 
-impl Planned {
+impl PlannedStudy {
     /// Fills a text of the file for one of the runs.
     pub fn fill(&self, template: &Template, job: &Job, paths: &Paths) -> String {
         template.fill(|it| self.value(job, paths, it), |name| self.parameter(name))

@@ -5,18 +5,18 @@ use mms_documents::campaign::{self as documents, CampaignRun, CampaignStudy};
 use mms_documents::provenance::Provenance;
 use mms_judge::{Judgements, Together};
 
-use crate::judged::Judged;
-use crate::plan::{Job, Plan, Planned};
-use crate::work::Outcome;
+use crate::judged::JudgedStudy;
+use crate::plan::{CampaignPlan, Job, PlannedStudy};
+use crate::work::RunOutcome;
 
 /// The report on a campaign, or on the requested part of it.
 pub struct Report<'a> {
     /// The plan of the campaign.
-    pub plan: &'a Plan,
+    pub plan: &'a CampaignPlan,
     /// The judgement of each study.
-    pub studies: Vec<Judged<'a>>,
+    pub studies: Vec<JudgedStudy<'a>>,
     /// If requested, the judgements of the same studies with a wrong b; fields without a body force have none.
-    pub canaries: Option<Vec<Judged<'a>>>,
+    pub canaries: Option<Vec<JudgedStudy<'a>>>,
     /// The words of the command to type next, if a study does not pass.
     pub next: Option<Vec<String>>,
     /// The provenance of the document.
@@ -47,28 +47,29 @@ impl Canary {
 
 impl Report<'_> {
     /// Each run with its outcome.
-    pub fn outcomes(&self) -> impl Iterator<Item = (&Job, &Outcome)> {
+    pub fn outcomes(&self) -> impl Iterator<Item = (&Job, &RunOutcome)> {
         self.studies.iter().flat_map(|it| it.planned.jobs.iter().zip(&it.outcomes))
     }
 
     /// Whether a run failed, or the results of a study cannot be judged.
     pub fn has_failed(&self) -> bool {
-        let failed = |(_, outcome): (&Job, &Outcome)| !matches!(outcome, Outcome::Finished(_));
+        let failed =
+            |(_, outcome): (&Job, &RunOutcome)| !matches!(outcome, RunOutcome::Finished(_));
         self.outcomes().any(failed) || self.studies.iter().any(|it| it.mistake.is_some())
     }
 
     /// Whether a verdict is no pass, or a study passes with a wrong b.
     pub fn is_refuted(&self) -> bool {
-        let mut verdicts = self.studies.iter().filter_map(Judged::verdict);
+        let mut verdicts = self.studies.iter().filter_map(JudgedStudy::verdict);
         !verdicts.all(Verdict::is_good) || !self.with_canary(Canary::Passes).is_empty()
     }
 
     /// The verdict of a study with a wrong b; `None` if it has no such runs.
     pub fn canary(&self, study: &str) -> Option<Canary> {
         let found = self.canaries.iter().flatten().find(|it| it.planned.study.name == study)?;
-        let passes = |it: &Judged<'_>| it.verdict().is_some_and(Verdict::is_good);
+        let passes = |it: &JudgedStudy<'_>| it.verdict().is_some_and(Verdict::is_good);
         let mut right = self.studies.iter().filter(|it| it.planned.study.name == study);
-        let is_missing = found.outcomes.contains(&Outcome::Interrupted);
+        let is_missing = found.outcomes.contains(&RunOutcome::Interrupted);
         Some(match right.any(passes) && !is_missing {
             _ if passes(found) => Canary::Passes,
             true => Canary::Fails,
@@ -90,7 +91,7 @@ impl Report<'_> {
         }))
     }
 
-    fn study(&self, judged: &Judged<'_>) -> CampaignStudy {
+    fn study(&self, judged: &JudgedStudy<'_>) -> CampaignStudy {
         let canary = self.canary(&judged.planned.study.name);
         CampaignStudy { canary: canary.map(|it| it.name().to_owned()), ..judged.document() }
     }
@@ -98,7 +99,7 @@ impl Report<'_> {
     /// The JSON document.
     pub fn document(&self) -> documents::Campaign {
         let solver = &self.plan.campaign.solver;
-        let passes = |it: &&Judged| it.verdict().is_some_and(Verdict::is_good);
+        let passes = |it: &&JudgedStudy| it.verdict().is_some_and(Verdict::is_good);
         documents::Campaign {
             solver: solver.name.clone(),
             solver_version: solver.version.clone(),
@@ -111,14 +112,14 @@ impl Report<'_> {
     }
 }
 
-impl Judged<'_> {
+impl JudgedStudy<'_> {
     /// The verdict; `None` if there are no results, or they cannot be judged.
     pub fn verdict(&self) -> Option<Verdict> {
         self.judgements.as_ref().map(Judgements::verdict)
     }
 
     fn document(&self) -> CampaignStudy {
-        let Planned { study, input, jobs, .. } = self.planned;
+        let PlannedStudy { study, input, jobs, .. } = self.planned;
         let runs = jobs.iter().zip(&self.outcomes).map(|(job, outcome)| run(job, outcome));
         CampaignStudy {
             name: study.name.clone(),
@@ -134,16 +135,16 @@ impl Judged<'_> {
     }
 }
 
-fn run(job: &Job, outcome: &Outcome) -> CampaignRun {
+fn run(job: &Job, outcome: &RunOutcome) -> CampaignRun {
     let (status, reason, last_words, folder) = match outcome {
-        Outcome::Finished(it) => ("done", None, None, Some(&it.folder)),
-        Outcome::Failed { reason, last_words, folder } => {
+        RunOutcome::Finished(it) => ("done", None, None, Some(&it.folder)),
+        RunOutcome::Failed { reason, last_words, folder } => {
             ("failed", Some(reason), Some(last_words), Some(folder))
         }
-        Outcome::Interrupted => ("interrupted", None, None, None),
+        RunOutcome::Interrupted => ("interrupted", None, None, None),
     };
     let (seconds, left_behind) = match outcome {
-        Outcome::Finished(it) => (Some(it.seconds), Some(&it.left_behind)),
+        RunOutcome::Finished(it) => (Some(it.seconds), Some(&it.left_behind)),
         _ => (None, None),
     };
     CampaignRun {

@@ -72,7 +72,7 @@ pub struct Unseen {
 const CELLS: usize = 4;
 
 /// A field of the gallery, and the terms that it shows.
-struct Shown {
+struct FieldTerms {
     input: Input,
     /// The keys of `can` that exclude the field.
     needs: Vec<&'static str>,
@@ -93,9 +93,9 @@ pub fn suggest(can: &Capabilities, open: Open<'_>) -> anyhow::Result<Suggestion>
         is_law && (can.axisymmetric || !field.space.is_axisymmetric())
     };
     for field in gallery::fields().iter().filter(|field| is_known(field)) {
-        shown.push(Shown::new(field.name.raw(), can, open)?);
+        shown.push(FieldTerms::new(field.name.raw(), can, open)?);
     }
-    let allowed: Vec<&Shown> = shown.iter().filter(|it| it.needs.is_empty()).collect();
+    let allowed: Vec<&FieldTerms> = shown.iter().filter(|it| it.needs.is_empty()).collect();
     let candidates: Vec<Candidate> = allowed.iter().map(|it| it.candidate()).collect();
     let mut seen = BTreeSet::new();
     let mut fields = Vec::new();
@@ -109,7 +109,7 @@ pub fn suggest(can: &Capabilities, open: Open<'_>) -> anyhow::Result<Suggestion>
     Ok(Suggestion { fields, affine: affine(&allowed), unseen: unseen(&shown, &seen, can) })
 }
 
-impl Shown {
+impl FieldTerms {
     fn new(name: &str, can: &Capabilities, open: Open<'_>) -> anyhow::Result<Self> {
         let input = Input::new(open(name)?, &Options::default())?;
         let visibility = Visibility::of(&input.compiled)
@@ -117,7 +117,7 @@ impl Shown {
         let terms = terms(&input.compiled.field, &visibility);
         let needs = needs(&input.compiled.field, &visibility, can);
         let cells = input.scene::<f64>(&[], |code| code.double)?.default_cells();
-        Ok(Shown { input, needs, terms, visibility, cells })
+        Ok(FieldTerms { input, needs, terms, visibility, cells })
     }
 
     /// The terms that the field shows, and an estimate of the cost of the finest mesh.
@@ -176,8 +176,8 @@ fn needs(field: &FieldSpec, visibility: &Visibility, can: &Capabilities) -> Vec<
 }
 
 /// The first field that linear shape functions represent exactly.
-fn affine(allowed: &[&Shown]) -> Option<Affine> {
-    let is_affine = |it: &&&Shown| {
+fn affine(allowed: &[&FieldTerms]) -> Option<Affine> {
+    let is_affine = |it: &&&FieldTerms| {
         it.visibility.span() == Some(Span::Linear) && !it.visibility.lacks(&Term::Velocity)
     };
     let found = allowed.iter().find(is_affine)?;
@@ -197,7 +197,7 @@ fn rounded(value: f64) -> f64 {
 }
 
 /// The terms of fields that the solver cannot run, without the terms of fields that it can run.
-fn unseen(shown: &[Shown], seen: &BTreeSet<String>, can: &Capabilities) -> Vec<Unseen> {
+fn unseen(shown: &[FieldTerms], seen: &BTreeSet<String>, can: &Capabilities) -> Vec<Unseen> {
     let mut unseen: BTreeMap<String, Unseen> = BTreeMap::new();
     for it in shown {
         let by = Needing { field: it.input.name.raw().to_owned(), keys: it.needs.clone() };

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use anyhow::{Context as _, anyhow, ensure};
-use mms_campaign::process::{Folder, Order};
+use mms_campaign::process::{Folder, Launch};
 use mms_campaign::supervisor::{Ended, Report};
 use mms_codegen::rust::File;
 use mms_emit::{Subject, Target};
@@ -31,7 +31,7 @@ use mms_state::{USUAL, Wanted};
 use serde::{Deserialize, Serialize};
 
 use super::digests::Content;
-use super::plan::{Job, Paths, Plan, Planned, text};
+use super::plan::{CampaignPlan, Job, Paths, PlannedStudy, text};
 
 /// The stored record of a finished run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -49,7 +49,7 @@ pub struct Finished {
 
 /// The outcome of a run.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Outcome {
+pub enum RunOutcome {
     /// The run finished, now or before.
     Finished(Finished),
     /// The run failed.
@@ -68,7 +68,7 @@ pub enum Outcome {
 /// Receives events while runs go on.
 pub trait Watcher: Sync {
     /// A run has ended, or was in the store.
-    fn done(&self, job: &Job, outcome: &Outcome, is_new: bool);
+    fn done(&self, job: &Job, outcome: &RunOutcome, is_new: bool);
     /// A file of the store was set aside.
     fn set_aside(&self, what: &str);
     /// Whether all runs are to end.
@@ -78,7 +78,7 @@ pub trait Watcher: Sync {
 /// A plan, and the store for its results.
 pub struct Work<'a> {
     /// The runs.
-    pub plan: &'a Plan,
+    pub plan: &'a CampaignPlan,
     /// The store of results.
     pub store: &'a Store,
     /// The folder of the store.
@@ -92,7 +92,7 @@ pub struct Work<'a> {
 impl<'a> Work<'a> {
     /// The work on a plan; starts nothing.
     pub fn new(
-        plan: &'a Plan,
+        plan: &'a CampaignPlan,
         store: &'a Store,
         folder: &'a Path,
         watcher: &'a dyn Watcher,
@@ -104,7 +104,7 @@ impl<'a> Work<'a> {
     ///
     /// # Errors
     /// The store cannot be read or written.
-    pub fn outcomes(&self, jobs: NonZero<usize>) -> anyhow::Result<Vec<Vec<Outcome>>> {
+    pub fn outcomes(&self, jobs: NonZero<usize>) -> anyhow::Result<Vec<Vec<RunOutcome>>> {
         let all: Vec<_> = self
             .plan
             .studies
@@ -114,7 +114,7 @@ impl<'a> Work<'a> {
         let done =
             side_by_side(&all, jobs, |(planned, job), wait| self.outcome(planned, job, wait))?;
         let mut done = done.into_iter();
-        let of_study = |planned: &Planned| {
+        let of_study = |planned: &PlannedStudy| {
             let outcomes = done.by_ref().take(planned.jobs.len()).collect();
             self.without_cut_tables(planned, outcomes)
         };
@@ -125,25 +125,25 @@ impl<'a> Work<'a> {
     /// wrote all of them.
     fn without_cut_tables(
         &self,
-        planned: &Planned,
-        outcomes: Vec<Outcome>,
-    ) -> anyhow::Result<Vec<Outcome>> {
+        planned: &PlannedStudy,
+        outcomes: Vec<RunOutcome>,
+    ) -> anyhow::Result<Vec<RunOutcome>> {
         let cut: Vec<Option<PathBuf>> = outcomes.iter().map(|it| self.cut_table(it)).collect();
-        let is_whole = |(outcome, cut): (&Outcome, &Option<PathBuf>)| {
-            matches!(outcome, Outcome::Finished(_)) && cut.is_none()
+        let is_whole = |(outcome, cut): (&RunOutcome, &Option<PathBuf>)| {
+            matches!(outcome, RunOutcome::Finished(_)) && cut.is_none()
         };
         if !outcomes.iter().zip(&cut).any(is_whole) {
             return Ok(outcomes);
         }
         let runs = planned.jobs.iter().zip(outcomes).zip(cut);
         let kept = runs.map(|((job, outcome), cut)| match (outcome, cut) {
-            (Outcome::Finished(Finished { folder, .. }), Some(path)) => {
+            (RunOutcome::Finished(Finished { folder, .. }), Some(path)) => {
                 let path = foreign::path(&path);
                 let reason =
                     format!("`{path}` ends within a line, and tables of other levels do not");
                 self.watcher.set_aside(&self.store.distrust(&job.key, &reason)?);
                 let reason = format!("it ended well, but {reason}: it is cut");
-                Ok(Outcome::Failed { reason, last_words: Vec::new(), folder })
+                Ok(RunOutcome::Failed { reason, last_words: Vec::new(), folder })
             }
             (outcome, _) => Ok(outcome),
         });
@@ -151,8 +151,8 @@ impl<'a> Work<'a> {
     }
 
     /// The path of a result table that ends within a line.
-    fn cut_table(&self, outcome: &Outcome) -> Option<PathBuf> {
-        let Outcome::Finished(finished) = outcome else { return None };
+    fn cut_table(&self, outcome: &RunOutcome) -> Option<PathBuf> {
+        let RunOutcome::Finished(finished) = outcome else { return None };
         let paths = finished.results.iter().map(|(path, _)| Path::new(path));
         let mut tables = paths
             .filter(|path| path.extension().is_some_and(|end| end == "csv" || end == "tsv"))
@@ -164,7 +164,7 @@ impl<'a> Work<'a> {
     ///
     /// # Errors
     /// The store cannot be read, or a file in it cannot be renamed.
-    pub fn stored(&self, planned: &Planned, job: &Job) -> anyhow::Result<Option<Finished>> {
+    pub fn stored(&self, planned: &PlannedStudy, job: &Job) -> anyhow::Result<Option<Finished>> {
         let said = match self.store.load::<Finished>(&job.key)? {
             Entry::Missing => return Ok(None),
             Entry::SetAside(said) => said,
@@ -184,7 +184,7 @@ impl<'a> Work<'a> {
     /// The first fault of the results of a run: a file is missing, has changed, or was added.
     fn fault(
         &self,
-        planned: &Planned,
+        planned: &PlannedStudy,
         job: &Job,
         finished: &Finished,
     ) -> anyhow::Result<Option<Fault>> {
@@ -208,38 +208,43 @@ impl<'a> Work<'a> {
     }
 
     /// The outcome of a run; `None` if another process is making it and `wait` is false.
-    fn outcome(&self, planned: &Planned, job: &Job, wait: bool) -> anyhow::Result<Option<Outcome>> {
+    fn outcome(
+        &self,
+        planned: &PlannedStudy,
+        job: &Job,
+        wait: bool,
+    ) -> anyhow::Result<Option<RunOutcome>> {
         if let Some(finished) = self.stored(planned, job)? {
-            return Ok(Some(self.told(job, Outcome::Finished(finished), false)));
+            return Ok(Some(self.told(job, RunOutcome::Finished(finished), false)));
         }
         let Some(_claim) = self.store.claim(&job.key, wait)? else { return Ok(None) };
         // The process that held the claim before may have finished.
         if let Some(finished) = self.stored(planned, job)? {
-            return Ok(Some(self.told(job, Outcome::Finished(finished), false)));
+            return Ok(Some(self.told(job, RunOutcome::Finished(finished), false)));
         }
         if self.watcher.is_interrupted() {
-            return Ok(Some(Outcome::Interrupted));
+            return Ok(Some(RunOutcome::Interrupted));
         }
         let outcome =
             self.run(planned, job).with_context(|| format!("`{}`", foreign::shown(&job.name)))?;
-        if let Outcome::Finished(finished) = &outcome {
+        if let RunOutcome::Finished(finished) = &outcome {
             self.store.save(&job.key, finished)?;
         }
         Ok(Some(self.told(job, outcome, true)))
     }
 
-    fn told(&self, job: &Job, outcome: Outcome, is_new: bool) -> Outcome {
+    fn told(&self, job: &Job, outcome: RunOutcome, is_new: bool) -> RunOutcome {
         self.watcher.done(job, &outcome, is_new);
         outcome
     }
 
-    fn run(&self, planned: &Planned, job: &Job) -> anyhow::Result<Outcome> {
+    fn run(&self, planned: &PlannedStudy, job: &Job) -> anyhow::Result<RunOutcome> {
         let parent = self.parent(planned, job)?;
         let folder = Folder::free(&parent)
             .with_context(|| format!("cannot make a folder in `{}`", foreign::path(&parent)))?;
         let paths = self.paths(&folder.path)?;
         let own = text(folder.path.strip_prefix(self.folder).unwrap_or(&folder.path))?;
-        let failed = |reason: String| Outcome::Failed {
+        let failed = |reason: String| RunOutcome::Failed {
             reason,
             last_words: folder.last_words(),
             folder: own.clone(),
@@ -260,7 +265,7 @@ impl<'a> Work<'a> {
         let Report { ended, left_behind } = self.start(planned, job, &paths, &folder)?;
         let seconds = started.elapsed().as_secs_f64();
         Ok(match (ended, changed()) {
-            (Ended::Interrupted, _) => Outcome::Interrupted,
+            (Ended::Interrupted, _) => RunOutcome::Interrupted,
             (Ended::Badly(reason), _) => failed(reason + &left_behind_too(&left_behind)),
             (Ended::Well, Some(name)) => failed(format!(
                 "`{name}` changed during the run, so its results belong to an unknown version; a run must write into \
@@ -268,7 +273,7 @@ impl<'a> Work<'a> {
             )),
             (Ended::Well, None) => match self.results(planned, job, &paths, &folder.path) {
                 Ok(results) => {
-                    Outcome::Finished(Finished { folder: own, seconds, results, left_behind })
+                    RunOutcome::Finished(Finished { folder: own, seconds, results, left_behind })
                 }
                 Err(error) => failed(format!("it ended well, but {error:#}")),
             },
@@ -278,7 +283,7 @@ impl<'a> Work<'a> {
     /// Runs the command in the folder of the run, and keeps its output there.
     fn start(
         &self,
-        planned: &Planned,
+        planned: &PlannedStudy,
         job: &Job,
         paths: &Paths,
         folder: &Folder,
@@ -288,7 +293,7 @@ impl<'a> Work<'a> {
             solver.run.iter().map(|word| planned.fill(word, job, paths)).collect();
         let line = words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
         write_own(&folder.path.join("command.txt"), &(line + "\n"))?;
-        let order = Order {
+        let order = Launch {
             supervisor: &program::words()?,
             words: &words,
             directory: &self.directory(planned, job, paths),
@@ -300,7 +305,7 @@ impl<'a> Work<'a> {
 
     /// The folder that contains one folder for each attempt of a run. Its name includes a part of the digest of the run's key,
     /// so that runs of the same level with other inputs have other folders.
-    fn parent(&self, planned: &Planned, job: &Job) -> anyhow::Result<PathBuf> {
+    fn parent(&self, planned: &PlannedStudy, job: &Job) -> anyhow::Result<PathBuf> {
         let digest = digest([serde_json::to_string(&job.key)?]);
         let own = format!("{}-{}", job.level, &digest[..8]);
         Ok(self.folder.join(&planned.study.name).join(own))
@@ -322,7 +327,7 @@ impl<'a> Work<'a> {
     }
 
     /// Makes the folder for results, and writes the input files of the run.
-    fn prepare(&self, planned: &Planned, job: &Job, paths: &Paths) -> anyhow::Result<()> {
+    fn prepare(&self, planned: &PlannedStudy, job: &Job, paths: &Paths) -> anyhow::Result<()> {
         make(Path::new(&paths.output))?;
         if let Some(target) = self.plan.target {
             self.emit(planned, target, paths)?;
@@ -336,7 +341,7 @@ impl<'a> Work<'a> {
     }
 
     /// Writes the source of the field.
-    fn emit(&self, planned: &Planned, target: &Target, paths: &Paths) -> anyhow::Result<()> {
+    fn emit(&self, planned: &PlannedStudy, target: &Target, paths: &Paths) -> anyhow::Result<()> {
         let folder = Path::new(&paths.emitted);
         make(folder)?;
         for file in self.sources(planned, target)?.iter() {
@@ -348,27 +353,32 @@ impl<'a> Work<'a> {
     }
 
     /// The source of the field of a study, with its parameters as defaults; made once for all of its runs.
-    fn sources(&self, planned: &Planned, target: &Target) -> anyhow::Result<Arc<Vec<File>>> {
+    fn sources(&self, planned: &PlannedStudy, target: &Target) -> anyhow::Result<Arc<Vec<File>>> {
         // Other threads that need the source have to wait for it anyway.
         let mut all = self.emitted.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(files) = all.get(&planned.study.name) {
             return Ok(files.clone());
         }
-        let input = planned.given().with_defaults(&planned.study.set)?;
+        let input = planned.input_of_runs().with_defaults(&planned.study.set)?;
         let bundle = (target.emit)(&Subject::new(&input.compiled));
         let files = Arc::new(bundle.sources().to_vec());
         all.insert(planned.study.name.clone(), files.clone());
         Ok(files)
     }
 
-    fn directory(&self, planned: &Planned, job: &Job, paths: &Paths) -> PathBuf {
+    fn directory(&self, planned: &PlannedStudy, job: &Job, paths: &Paths) -> PathBuf {
         let own = self.plan.campaign.solver.directory.as_ref();
         let own = own.map_or(String::new(), |it| planned.fill(it, job, paths));
         self.plan.here.join(own)
     }
 
     /// The argument of `mms judge` for the results of a run.
-    fn given(&self, planned: &Planned, job: &Job, paths: &Paths) -> anyhow::Result<String> {
+    fn results_argument(
+        &self,
+        planned: &PlannedStudy,
+        job: &Job,
+        paths: &Paths,
+    ) -> anyhow::Result<String> {
         let pattern = planned.pattern(&self.plan.campaign.solver.output, job, paths);
         text(&self.directory(planned, job, paths).join(pattern))
     }
@@ -379,18 +389,18 @@ impl<'a> Work<'a> {
     /// A path that is no text.
     pub fn results_of(
         &self,
-        planned: &Planned,
+        planned: &PlannedStudy,
         job: &Job,
         finished: &Finished,
     ) -> anyhow::Result<String> {
         let paths = self.paths(&self.folder.join(&finished.folder))?;
-        self.given(planned, job, &paths)
+        self.results_argument(planned, job, &paths)
     }
 
     /// The result files of a run, which must exist and be complete: all files that judging would read.
     fn results(
         &self,
-        planned: &Planned,
+        planned: &PlannedStudy,
         job: &Job,
         paths: &Paths,
         folder: &Path,
@@ -402,7 +412,7 @@ impl<'a> Work<'a> {
             found.insert(path.to_owned(), self.plan.digests.of(path));
             Ok(bytes)
         };
-        for path in existing(&self.given(planned, job, paths)?)? {
+        for path in existing(&self.results_argument(planned, job, paths)?)? {
             ensure!(
                 path.metadata().is_ok_and(|it| it.len() > 0),
                 "`{}` is empty",
@@ -426,7 +436,7 @@ impl<'a> Work<'a> {
     ///
     /// # Errors
     /// A path that is no text.
-    pub fn command(&self, planned: &Planned, job: &Job) -> anyhow::Result<Vec<String>> {
+    pub fn command(&self, planned: &PlannedStudy, job: &Job) -> anyhow::Result<Vec<String>> {
         let paths = self.paths(&self.parent(planned, job)?.join("1"))?;
         let words = self.plan.campaign.solver.run.iter();
         Ok(words.map(|word| planned.fill(word, job, &paths)).collect())
@@ -459,8 +469,8 @@ pub fn left_behind_too(names: &[String]) -> String {
 }
 
 /// Writes the exact state at the start, at the particles of a grid of the level.
-fn write_state(planned: &Planned, job: &Job, path: &str) -> anyhow::Result<()> {
-    let (study, input, [start, _]) = (&planned.study, planned.given(), &planned.window);
+fn write_state(planned: &PlannedStudy, job: &Job, path: &str) -> anyhow::Result<()> {
+    let (study, input, [start, _]) = (&planned.study, planned.input_of_runs(), &planned.window);
     let file: file::Target = path.parse().map_err(anyhow::Error::msg)?;
     let scene = input.scene(&study.set, |code| code.double)?;
     let points = Points::of_grid(&scene, &Division::Uniform(job.cells), planned.per_cell)?;
@@ -478,14 +488,14 @@ fn make(folder: &Path) -> anyhow::Result<()> {
 }
 
 /// The default number of runs at the same time: as many as the processors allow.
-pub fn side_by_side_of(plan: &Plan) -> NonZero<usize> {
+pub fn side_by_side_of(plan: &CampaignPlan) -> NonZero<usize> {
     let processors = std::thread::available_parallelism().map_or(1, NonZero::get);
     let jobs = processors / plan.campaign.solver.threads.get();
     NonZero::new(jobs).unwrap_or(NonZero::<usize>::MIN)
 }
 
 /// The hash of the fields of a plan, for the provenance.
-pub fn hash(plan: &Plan, file: &str) -> String {
+pub fn hash(plan: &CampaignPlan, file: &str) -> String {
     let fields = plan.studies.iter().map(|it| it.input.compiled.input_hash());
     digest([file, &fields.collect::<String>()])
 }

@@ -1,6 +1,6 @@
 //! The mistakes that a pass excludes, in a JSON document.
 
-use mms_diagnosis::excluded::{Excluded, Shown};
+use mms_diagnosis::excluded::{Excluded, VisibleSizes};
 use mms_documents::campaign::ExcludedTogether;
 use mms_documents::judge;
 
@@ -50,9 +50,9 @@ impl Exclusions {
 
 fn document(it: &Excluded) -> judge::Excluded {
     let (times, right, from) = match it.shown {
-        Shown::Always(times) => (times, None, None),
-        Shown::From { right, least } => (None, Some(right), Some(least)),
-        Shown::Never(times) => (Some(times), None, None),
+        VisibleSizes::Always(times) => (times, None, None),
+        VisibleSizes::From { right, least } => (None, Some(right), Some(least)),
+        VisibleSizes::Never(times) => (Some(times), None, None),
     };
     judge::Excluded {
         hypothesis: it.title.clone(),

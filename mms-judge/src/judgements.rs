@@ -8,7 +8,7 @@ use mms_documents::provenance::Provenance;
 use mms_documents::study::{JudgedLevel, JudgedNorm, LevelErrors, Limit, LowerOrder, SecondTerm};
 use mms_exact::{Exact, Input, units};
 
-use crate::measured::{Judged, Measured, Norm, Objection, Quantity, Refined, worst};
+use crate::measured::{Measured, Norm, Objection, Quantity, QuantityJudgement, Refined, worst};
 use crate::results::{Exclusions, Measurement, exclusions};
 
 /// Errors and their verdicts.
@@ -20,7 +20,7 @@ pub struct Judgements {
     /// The lengths that differ between the runs.
     pub refined: Refined,
     /// The judgement of each quantity.
-    pub judged: Vec<Judged>,
+    pub judged: Vec<QuantityJudgement>,
     /// Sentences about the measurement of the errors.
     pub notes: Vec<String>,
     /// The part of the body that results cover, if a part was enough.
@@ -137,7 +137,7 @@ impl Judgements {
     }
 
     /// Each quantity with its judgement.
-    pub fn each(&self) -> impl Iterator<Item = (&Quantity, &Judged)> {
+    pub fn each(&self) -> impl Iterator<Item = (&Quantity, &QuantityJudgement)> {
         self.measured.quantities.iter().zip(&self.judged)
     }
 
@@ -176,15 +176,20 @@ impl Judgements {
     }
 
     /// The verdict of a quantity in words, with all details.
-    fn says(&self, quantity: &Quantity, judged: &Judged) -> Vec<String> {
+    fn says(&self, quantity: &Quantity, judged: &QuantityJudgement) -> Vec<String> {
         self.sentences(quantity, judged, true)
     }
 
     /// The verdict of a quantity in words; if `is_full`, with the source of each interval.
-    pub fn sentences(&self, quantity: &Quantity, judged: &Judged, is_full: bool) -> Vec<String> {
+    pub fn sentences(
+        &self,
+        quantity: &Quantity,
+        judged: &QuantityJudgement,
+        is_full: bool,
+    ) -> Vec<String> {
         let fits = quantity.norms.iter().zip(&judged.fits);
         let fits = fits.filter_map(|(norm, fit)| Some(fit.as_ref()?.sentence(&norm.name.shown())));
-        let Judged { judgement, .. } = judged;
+        let QuantityJudgement { judgement, .. } = judged;
         let (symbol, name) = (self.refined.symbol(), |length| self.name(length));
         let mut lines = vec![format!("{}: {}", judgement.verdict(), judgement.headline(&name))];
         lines.extend(match is_full {
@@ -210,7 +215,7 @@ impl Judgements {
     }
 
     /// The place of the largest error, and the expected order that accepts it, if linf alone fails.
-    fn largest(&self, quantity: &Quantity, judged: &Judged) -> Option<String> {
+    fn largest(&self, quantity: &Quantity, judged: &QuantityJudgement) -> Option<String> {
         let order = judged.judgement.only_largest()?;
         let at = self.measured.quantities.iter().position(|it| std::ptr::eq(it, quantity));
         let place = at.and_then(|at| self.largest.get(at)).filter(|it| !it.is_empty());
@@ -228,7 +233,7 @@ impl Judgements {
     }
 
     /// The value of `--expected-order` with which a quantity passes, if linf alone fails: the observed order, rounded down.
-    fn lower_order(&self, quantity: &Quantity, judged: &Judged) -> Option<String> {
+    fn lower_order(&self, quantity: &Quantity, judged: &QuantityJudgement) -> Option<String> {
         // As it is printed, 1.699 is 1.70.
         let order = (10.0 * judged.judgement.only_largest()? + 0.05).floor() / 10.0;
         let name = quantity.name.raw();
@@ -241,11 +246,11 @@ impl Judgements {
     /// The values of `--expected-order` with which the results pass; `None` if another norm than linf fails, or a layer at a
     /// face shows.
     pub fn lower_orders(&self) -> Option<Vec<String>> {
-        let is_good = |it: &&Judged| it.judgement.verdict().is_good();
+        let is_good = |it: &&QuantityJudgement| it.judgement.verdict().is_good();
         if self.judged.iter().all(|it| is_good(&it)) {
             return None;
         }
-        let order = |(quantity, judged): (&Quantity, &Judged)| match is_good(&judged) {
+        let order = |(quantity, judged): (&Quantity, &QuantityJudgement)| match is_good(&judged) {
             true => None,
             false if judged.judgement.layer().is_some() => Some(None),
             false => Some(self.lower_order(quantity, judged)),
@@ -320,12 +325,17 @@ impl Judgements {
     /// h and dt of a level.
     fn sizes(&self, length: f64) -> [Option<f64>; 2] {
         let runs = &self.measured.runs;
-        let of = |run: &&crate::measured::Run| self.measured.length(self.refined, run) == length;
+        let of =
+            |run: &&crate::measured::RunSize| self.measured.length(self.refined, run) == length;
         let run = runs.iter().find(of);
         [run.map(|it| it.cell_size), run.and_then(|it| it.time_step)]
     }
 
-    fn quantity(&self, quantity: &Quantity, judged: &Judged) -> documents::JudgedQuantity {
+    fn quantity(
+        &self,
+        quantity: &Quantity,
+        judged: &QuantityJudgement,
+    ) -> documents::JudgedQuantity {
         let deciding = judged.judgement.deciding();
         let mut norms = norms_judged(&judged.judgement);
         for own in &mut norms {

@@ -10,14 +10,14 @@ use mms_spec::foreign::Foreign;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
     /// The runs, in any sequence; runs of one length are replicates.
-    pub runs: Vec<Run>,
+    pub runs: Vec<RunSize>,
     /// The quantities, at least one.
     pub quantities: Vec<Quantity>,
 }
 
 /// One run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Run {
+pub struct RunSize {
     /// h.
     pub cell_size: f64,
     /// dt, if it is known.
@@ -78,7 +78,7 @@ impl Refined {
 }
 
 /// The judgement of a quantity.
-pub struct Judged {
+pub struct QuantityJudgement {
     /// The norms with their verdicts.
     pub judgement: Judgement,
     /// For a grid of h and dt, the fit in space and time in each norm.
@@ -96,7 +96,7 @@ pub struct Objection {
     pub is_to_all: bool,
 }
 
-impl Judged {
+impl QuantityJudgement {
     /// Withdraws the findings to which there is an objection.
     pub fn object(&mut self, objection: Option<&Objection>) {
         let verdict = self.judgement.verdict();
@@ -136,16 +136,19 @@ impl Measured {
     ///
     /// # Errors
     /// A grid of h and dt that is too small to separate the two.
-    pub fn judged(&self, objection: Option<&Objection>) -> anyhow::Result<(Refined, Vec<Judged>)> {
+    pub fn judged(
+        &self,
+        objection: Option<&Objection>,
+    ) -> anyhow::Result<(Refined, Vec<QuantityJudgement>)> {
         let refined = self.refined()?;
         let judge = |quantity| self.judge(refined, quantity);
-        let mut judged: Vec<Judged> = self.quantities.iter().filter_map(judge).collect();
+        let mut judged: Vec<QuantityJudgement> = self.quantities.iter().filter_map(judge).collect();
         judged.iter_mut().for_each(|it| it.object(objection));
         Ok((refined, judged))
     }
 
     /// The refined length of a run.
-    pub fn length(&self, refined: Refined, run: &Run) -> f64 {
+    pub fn length(&self, refined: Refined, run: &RunSize) -> f64 {
         match refined {
             Refined::Time => run.time_step.unwrap_or(run.cell_size),
             Refined::Space | Refined::Grid => run.cell_size,
@@ -165,7 +168,7 @@ impl Measured {
     }
 
     /// Judges a quantity; `None` without a norm.
-    pub fn judge(&self, refined: Refined, quantity: &Quantity) -> Option<Judged> {
+    pub fn judge(&self, refined: Refined, quantity: &Quantity) -> Option<QuantityJudgement> {
         let norms = || quantity.norms.iter().map(|norm| (norm.name.raw(), norm));
         if refined == Refined::Grid {
             let fits: Vec<_> = quantity.norms.iter().map(|norm| fit(&self.grid(norm))).collect();
@@ -173,12 +176,16 @@ impl Measured {
             let pairs = self.runs.iter().map(|it| [it.cell_size, it.time_step.unwrap_or(f64::NAN)]);
             let pairs: Vec<_> = pairs.collect();
             let judgement = Judgement::of_fits(&pairs, fitted)?;
-            return Some(Judged { judgement, fits, objection: None });
+            return Some(QuantityJudgement { judgement, fits, objection: None });
         }
         let sequences: Vec<_> =
             quantity.norms.iter().map(|norm| self.sequence(refined, norm)).collect();
         let judged = norms().zip(&sequences).map(|((name, norm), it)| (name, it, norm.expected[0]));
-        Some(Judged { judgement: Judgement::of(judged)?, fits: Vec::new(), objection: None })
+        Some(QuantityJudgement {
+            judgement: Judgement::of(judged)?,
+            fits: Vec::new(),
+            objection: None,
+        })
     }
 
     /// h, dt and e of each run; NaN for a run that stopped, so that nothing fits.
@@ -199,7 +206,7 @@ fn count(a: &[f64], b: &[f64]) -> usize {
 }
 
 /// The worst verdict of some quantities, and the position of the first quantity with it.
-pub fn worst(judged: &[Judged]) -> Option<(usize, Verdict)> {
+pub fn worst(judged: &[QuantityJudgement]) -> Option<(usize, Verdict)> {
     let verdicts = judged.iter().map(|it| it.judgement.verdict()).enumerate();
     verdicts.rev().max_by_key(|(_, verdict)| *verdict)
 }

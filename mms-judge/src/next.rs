@@ -5,7 +5,7 @@
 use std::fmt::Display;
 
 use mms_convergence::Verdict;
-use mms_diagnosis::answer::{Diagnosis, Finding, Rung};
+use mms_diagnosis::answer::{Diagnosis, DiagnosisFinding, Rung};
 use mms_diagnosis::scene::FEWEST_POINTS;
 
 use crate::Judgements;
@@ -102,16 +102,16 @@ pub fn after_judgement(
 pub fn after_diagnosis(diagnosis: &Diagnosis, meshes: &Meshes, words: &[String]) -> Option<Words> {
     let field = meshes.field.as_str();
     match (diagnosis.finding, diagnosis.rung) {
-        (Finding::Nothing, _) => None,
-        (Finding::Named, Rung::Results) => Some(meshes.asks("judge", None)),
-        (Finding::Named, _) => Some(words.to_vec()),
-        (Finding::Unexplained, Rung::Law) => Some(command(["diagnose", field, "--list"])),
-        (Finding::Unexplained, Rung::State(_)) => {
+        (DiagnosisFinding::Nothing, _) => None,
+        (DiagnosisFinding::Named, Rung::Results) => Some(meshes.asks("judge", None)),
+        (DiagnosisFinding::Named, _) => Some(words.to_vec()),
+        (DiagnosisFinding::Unexplained, Rung::Law) => Some(command(["diagnose", field, "--list"])),
+        (DiagnosisFinding::Unexplained, Rung::State(_)) => {
             Some(command(["diagnose", field, "--plan", "law"]))
         }
-        (Finding::Unexplained, Rung::Step) => {
+        (DiagnosisFinding::Unexplained, Rung::Step) => {
             Some(command(["diagnose", field, "--plan", "accelerations"]))
         }
-        (Finding::Unexplained, Rung::Results) => Some(meshes.plan()),
+        (DiagnosisFinding::Unexplained, Rung::Results) => Some(meshes.plan()),
     }
 }

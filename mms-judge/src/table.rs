@@ -10,18 +10,18 @@ use mms_spec::foreign;
 use mms_spec::foreign::shown;
 use mms_spec::suggest::did_you_mean;
 
-use crate::measured::{Measured, Norm, Quantity, Run};
+use crate::measured::{Measured, Norm, Quantity, RunSize};
 use crate::names::Column;
 use crate::results::Start;
 
 /// An order, optionally of a named norm, as in `2` or `H1=1`.
 #[derive(Clone, Debug)]
-pub struct Order {
+pub struct NamedOrder {
     name: Option<String>,
     order: f64,
 }
 
-impl FromStr for Order {
+impl FromStr for NamedOrder {
     type Err = &'static str;
 
     fn from_str(text: &str) -> Result<Self, &'static str> {
@@ -39,7 +39,7 @@ fn finite(text: &str) -> Result<f64, &'static str> {
 
 /// The expected orders: of all norms, or of named ones.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Orders {
+pub struct ExpectedOrders {
     /// The order of everything without an order of its own.
     pub usual: f64,
     /// The degree of the cells, if it is known.
@@ -63,14 +63,14 @@ const METHOD: &str = "method";
 /// The name of the order in dt.
 pub const TIME: &str = "time";
 
-impl Orders {
+impl ExpectedOrders {
     /// Collects given orders; the last one of a name counts, and the usual order is 2 if none is given.
-    pub fn new(given: &[Order], tolerance: f64) -> Self {
+    pub fn new(given: &[NamedOrder], tolerance: f64) -> Self {
         let usual = given.iter().rev().find(|it| it.name.is_none());
         let named = given.iter().rev().filter_map(|it| Some((it.name.clone()?, it.order)));
         let (is_given, usual) = (usual.is_some(), usual.map_or(2.0, |it| it.order));
         let named = named.collect();
-        Orders { usual, degree: None, is_given, named, tolerance, start: None }
+        ExpectedOrders { usual, degree: None, is_given, named, tolerance, start: None }
     }
 
     /// The orders for cells of a degree: the usual order is one more than the degree, unless the user gave another one.
@@ -119,7 +119,7 @@ impl Orders {
     }
 
     /// Refuses orders of names that are not in the table.
-    fn hold(&self, columns: &[Cell]) -> anyhow::Result<()> {
+    fn validate_names(&self, columns: &[Cell]) -> anyhow::Result<()> {
         let mut known = vec![TIME.to_owned()];
         for cell in columns {
             if let Column::Error { quantity, norm } = Column::named(&cell.text) {
@@ -152,7 +152,7 @@ struct Cell {
 }
 
 /// A table whose rows have as many fields as its header.
-struct Table {
+struct ErrorTable {
     path: String,
     header: Vec<Cell>,
     columns: Vec<Column>,
@@ -167,17 +167,17 @@ struct Table {
 pub fn read(
     path: &Path,
     text: &str,
-    orders: &Orders,
+    orders: &ExpectedOrders,
     method: Option<&str>,
 ) -> anyhow::Result<(Measured, Vec<String>)> {
-    let mut table = Table::parse(foreign::path(path), text)?;
+    let mut table = ErrorTable::parse(foreign::path(path), text)?;
     table.choose(method)?;
-    orders.hold(&table.header)?;
+    orders.validate_names(&table.header)?;
     let measured = Measured { runs: table.runs()?, quantities: table.quantities(orders)? };
     Ok((measured, table.left_out()))
 }
 
-impl Table {
+impl ErrorTable {
     fn parse(path: String, text: &str) -> anyhow::Result<Self> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut rows = cells(text).with_context(|| format!("cannot read `{path}`"))?;
@@ -298,7 +298,7 @@ impl Table {
         Some(self.rows.iter().map(move |row| &row[at]))
     }
 
-    fn runs(&self) -> anyhow::Result<Vec<Run>> {
+    fn runs(&self) -> anyhow::Result<Vec<RunSize>> {
         let length = |cell: &Cell| self.number(cell, "a length", "above 0", |it| it > 0.0);
         let lengths = |wanted| -> anyhow::Result<Option<Vec<f64>>> {
             self.column(wanted).map(|cells| cells.map(length).collect()).transpose()
@@ -306,10 +306,10 @@ impl Table {
         let steps = lengths(&Column::TimeStep)?;
         let sizes = lengths(&Column::CellSize)?.unwrap_or_default().into_iter().enumerate();
         let step = |at: usize| steps.as_ref().map(|steps| steps[at]);
-        Ok(sizes.map(|(at, cell_size)| Run { cell_size, time_step: step(at) }).collect())
+        Ok(sizes.map(|(at, cell_size)| RunSize { cell_size, time_step: step(at) }).collect())
     }
 
-    fn quantities(&self, orders: &Orders) -> anyhow::Result<Vec<Quantity>> {
+    fn quantities(&self, orders: &ExpectedOrders) -> anyhow::Result<Vec<Quantity>> {
         let mut quantities: Vec<Quantity> = Vec::new();
         for (column, cell) in self.columns.iter().zip(&self.header) {
             let Column::Error { quantity, norm } = column else { continue };

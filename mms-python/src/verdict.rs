@@ -15,7 +15,7 @@ use mms_judge::diagnose::{
     Alone, Factors, Reading as Looking, falls, find, left_out, question, read,
 };
 use mms_judge::results::{Comparison, Over, Reading, Results, Start, axes, measure, own_roles};
-use mms_judge::table::Orders;
+use mms_judge::table::ExpectedOrders;
 use mms_report::page::Section as _;
 use mms_report::plot::Figure;
 use mms_report::{Diagnosed, Format, Shown, View};
@@ -57,13 +57,17 @@ impl Views {
 }
 
 /// The orders that are expected, as of `--expected-order`.
-fn orders(given: &[(Option<String>, f64)], tolerance: Option<f64>, start: Option<Start>) -> Orders {
+fn orders(
+    given: &[(Option<String>, f64)],
+    tolerance: Option<f64>,
+    start: Option<Start>,
+) -> ExpectedOrders {
     let words = given.iter().map(|(name, order)| match name {
         Some(name) => format!("{name}={order}"),
         None => order.to_string(),
     });
     let all: Vec<_> = words.filter_map(|it| it.parse().ok()).collect();
-    Orders { start, ..Orders::new(&all, tolerance.unwrap_or(TOLERANCE)) }
+    ExpectedOrders { start, ..ExpectedOrders::new(&all, tolerance.unwrap_or(TOLERANCE)) }
 }
 
 fn names(compiled: &Compiled) -> Names {
@@ -244,7 +248,7 @@ fn diagnose(
                 }),
             _ => None,
         };
-        let solver = Solver { without, like: None, falls, is_beside: false };
+        let solver = Solver { without, like: None, falls, is_compared_with_right_run: false };
         let factors = Factors::new(&exact);
         let times = |parameter, factor| factors.times(parameter, factor);
         let material = Material { names: factors.names(), times: &times };

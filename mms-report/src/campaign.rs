@@ -7,10 +7,10 @@ use mms_convergence::Verdict;
 use mms_documents::campaign::Campaign;
 use mms_files::words::duration;
 use mms_files::write::{pretty, refuse_link, write_files};
-use mms_harness::judged::Judged;
+use mms_harness::judged::JudgedStudy;
 use mms_harness::plan::Job;
 use mms_harness::report::{Canary, Report};
-use mms_harness::work::{Finished, Outcome, left_behind_too};
+use mms_harness::work::{Finished, RunOutcome, left_behind_too};
 use mms_judge::Judgements;
 use mms_spec::foreign::{self, one_line, shown};
 
@@ -58,7 +58,7 @@ impl View<'_> {
 
     fn tally(&self) -> String {
         let finished =
-            self.0.outcomes().filter(|(_, it)| matches!(it, Outcome::Finished(_))).count();
+            self.0.outcomes().filter(|(_, it)| matches!(it, RunOutcome::Finished(_))).count();
         let runs = format!("{finished} of {} runs are done", self.0.outcomes().count());
         let judged: Vec<_> = self.0.studies.iter().filter(|it| it.planned.is_whole()).collect();
         let passed = judged.iter().filter(|it| it.verdict().is_some_and(Verdict::is_good)).count();
@@ -101,7 +101,7 @@ impl View<'_> {
     /// The verdict of each study that does not pass, with its name.
     fn reasons(&self) -> Vec<String> {
         let judged = self.0.studies.iter().filter_map(|it| Some((it, it.judgements.as_ref()?)));
-        let reason = |(it, judgements): (&Judged<'_>, &Judgements)| {
+        let reason = |(it, judgements): (&JudgedStudy<'_>, &Judgements)| {
             let (at, _) = judgements.decided();
             let (quantity, found) = judgements.each().nth(at)?;
             let says = judgements.sentences(quantity, found, true).into_iter().next()?;
@@ -173,7 +173,7 @@ impl Shown for View<'_> {
 }
 
 /// The parts of the text about a study: runs that failed, processes that they left, and its judgement.
-fn parts(judged: &Judged<'_>, is_full: bool) -> Vec<String> {
+fn parts(judged: &JudgedStudy<'_>, is_full: bool) -> Vec<String> {
     let mut parts = Vec::new();
     let name = shown(&judged.planned.study.name);
     let runs = judged.planned.jobs.iter().zip(&judged.outcomes);
@@ -192,7 +192,7 @@ fn parts(judged: &Judged<'_>, is_full: bool) -> Vec<String> {
 }
 
 /// The row of a study in the table of all.
-fn row(judged: &Judged<'_>) -> Vec<String> {
+fn row(judged: &JudgedStudy<'_>) -> Vec<String> {
     let dash = || "-".to_owned();
     let deciding = judged.judgements.as_ref().and_then(|it| JudgementView(it).deciding());
     let word = match (judged.verdict(), &judged.mistake) {
@@ -211,8 +211,8 @@ fn row(judged: &Judged<'_>) -> Vec<String> {
 }
 
 /// The message for a run that failed.
-fn failure(job: &Job, outcome: &Outcome) -> Option<String> {
-    let Outcome::Failed { reason, last_words, folder } = outcome else { return None };
+fn failure(job: &Job, outcome: &RunOutcome) -> Option<String> {
+    let RunOutcome::Failed { reason, last_words, folder } = outcome else { return None };
     let words: String = last_words.iter().map(|line| format!("\n    {}", one_line(line))).collect();
     let words = if words.is_empty() { "\n    (it printed nothing)".to_owned() } else { words };
     Some(format!(
@@ -224,8 +224,8 @@ fn failure(job: &Job, outcome: &Outcome) -> Option<String> {
 }
 
 /// The processes that a run left behind.
-fn left_behind(job: &Job, outcome: &Outcome) -> Option<String> {
-    let Outcome::Finished(Finished { left_behind, .. }) = outcome else { return None };
+fn left_behind(job: &Job, outcome: &RunOutcome) -> Option<String> {
+    let RunOutcome::Finished(Finished { left_behind, .. }) = outcome else { return None };
     let names: Vec<_> = left_behind.iter().map(|name| shown(name)).collect();
     (!names.is_empty()).then(|| {
         let name = shown(&job.name);
@@ -234,15 +234,15 @@ fn left_behind(job: &Job, outcome: &Outcome) -> Option<String> {
 }
 
 /// A run that ended, on one line.
-pub fn line(job: &Job, outcome: &Outcome, is_new: bool) -> String {
+pub fn line(job: &Job, outcome: &RunOutcome, is_new: bool) -> String {
     let name = shown(&job.name);
     match outcome {
-        Outcome::Finished(it) if is_new => {
+        RunOutcome::Finished(it) if is_new => {
             let behind = left_behind_too(&it.left_behind);
             format!("{name}: done in {}{behind}", duration(it.seconds))
         }
-        Outcome::Finished(_) => format!("{name}: was done before"),
-        Outcome::Failed { reason, .. } => format!("{name}: {reason}"),
-        Outcome::Interrupted => format!("{name}: interrupted"),
+        RunOutcome::Finished(_) => format!("{name}: was done before"),
+        RunOutcome::Failed { reason, .. } => format!("{name}: {reason}"),
+        RunOutcome::Interrupted => format!("{name}: interrupted"),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mms_diagnosis::answer::{Diagnosis, Fields, Finding, Like, Place, Ranked};
+use mms_diagnosis::answer::{Diagnosis, DiagnosisFinding, ErrorPlace, Fields, Like, Ranked};
 use mms_diagnosis::falls::{Falls, OfOrder};
 use mms_diagnosis::list::Listed;
 use mms_documents::diagnose as documents;
@@ -56,7 +56,7 @@ impl Diagnosed<'_> {
             ordinary(it.expected)
         ));
         parts.extend(it.falls.as_ref().map(|falls| order(falls, it.of_order.as_ref())));
-        if it.finding != Finding::Nothing {
+        if it.finding != DiagnosisFinding::Nothing {
             parts.push(self.table().to_string());
         }
         parts.extend(it.pair.as_ref().map(|pair| {
@@ -64,7 +64,7 @@ impl Diagnosed<'_> {
             format!("two at once? {a} and {b} together explain {:.1} %", 100.0 * pair.explained)
         }));
         parts.extend(it.like.as_ref().map(alike));
-        if it.finding == Finding::Unexplained {
+        if it.finding == DiagnosisFinding::Unexplained {
             parts.extend(it.place.as_ref().map(|at| place(at, it.falls.is_none())));
         }
         let unseen = &it.cannot_be_seen;
@@ -82,10 +82,10 @@ impl Diagnosed<'_> {
     fn finding(&self) -> String {
         let it = self.diagnosis;
         match (it.finding, it.ranked.first()) {
-            (Finding::Nothing, _) => {
+            (DiagnosisFinding::Nothing, _) => {
                 "nothing: the error is of the size that a right solver makes".into()
             }
-            (Finding::Named, Some(best)) => named(best),
+            (DiagnosisFinding::Named, Some(best)) => named(best),
             _ if it.falls.as_ref().is_some_and(|it| !it.is_right) => {
                 "unexplained: the error does not fall as expected, and no hypothesis explains enough of it".into()
             }
@@ -212,7 +212,7 @@ fn alike(it: &Like) -> String {
 }
 
 /// The place of an unexplained error, and its order if no other line has it.
-fn place(it: &Place, has_order: bool) -> String {
+fn place(it: &ErrorPlace, has_order: bool) -> String {
     let at: Vec<String> = it.at.iter().map(|x| format!("{x:.4}")).collect();
     let mut lines = vec![format!("it is largest at X = [{}], t = {:.4e}", at.join(", "), it.time)];
     if let Some(face) = it.face {
@@ -268,7 +268,7 @@ fn error_order(it: &Falls, of_order: Option<&OfOrder>) -> documents::ErrorOrder 
     }
 }
 
-fn place_document(it: &Place) -> documents::Place {
+fn place_document(it: &ErrorPlace) -> documents::Place {
     documents::Place {
         at: it.at.clone(),
         time: it.time,

@@ -1,6 +1,6 @@
 //! The mistakes that a pass excludes, as text.
 
-use mms_diagnosis::excluded::{Excluded, Shown};
+use mms_diagnosis::excluded::{Excluded, VisibleSizes};
 use mms_judge::Together;
 use mms_judge::results::Exclusions;
 
@@ -51,19 +51,19 @@ type Says = (&'static str, fn(&Excluded) -> Option<String>);
 
 /// The lines of a text: excluded mistakes, mistakes excluded from a size on, open ones, and ones that the field does not see.
 const LINES: [Says; 4] = [
-    ("excluded", |it| matches!(it.shown, Shown::Always(_)).then(|| it.title.clone())),
+    ("excluded", |it| matches!(it.shown, VisibleSizes::Always(_)).then(|| it.title.clone())),
     ("excluded from a size on", |it| match it.shown {
-        Shown::From { right, least } => Some(format!("{} {}", it.title, size(right, least))),
-        Shown::Always(_) | Shown::Never(_) => None,
+        VisibleSizes::From { right, least } => Some(format!("{} {}", it.title, size(right, least))),
+        VisibleSizes::Always(_) | VisibleSizes::Never(_) => None,
     }),
     ("not excluded", |it| match it.shown {
-        Shown::Never(times) if times > UNSEEN => {
+        VisibleSizes::Never(times) if times > UNSEEN => {
             Some(format!("{} ({:.0} % of the error)", it.title, 100.0 * times))
         }
         _ => None,
     }),
     ("without effect on such results", |it| {
-        matches!(it.shown, Shown::Never(times) if times <= UNSEEN).then(|| it.title.clone())
+        matches!(it.shown, VisibleSizes::Never(times) if times <= UNSEEN).then(|| it.title.clone())
     }),
 ];
 

@@ -2,9 +2,9 @@
 
 use maud::{Markup, PreEscaped, html};
 use mms_convergence::Verdict;
-use mms_harness::judged::Judged;
+use mms_harness::judged::JudgedStudy;
 use mms_harness::report::{Canary, Report};
-use mms_harness::work::{Finished, Outcome};
+use mms_harness::work::{Finished, RunOutcome};
 use mms_spec::foreign::markup;
 
 /// The outcome of a case.
@@ -47,17 +47,17 @@ pub fn document(report: &Report<'_>) -> String {
 }
 
 /// The seconds that the runs of a study took.
-fn seconds(judged: &Judged<'_>) -> f64 {
-    let of = |it: &Outcome| match it {
-        Outcome::Finished(Finished { seconds, .. }) => *seconds,
+fn seconds(judged: &JudgedStudy<'_>) -> f64 {
+    let of = |it: &RunOutcome| match it {
+        RunOutcome::Finished(Finished { seconds, .. }) => *seconds,
         _ => 0.0,
     };
     judged.outcomes.iter().map(of).sum()
 }
 
-fn case(judged: &Judged<'_>) -> Case {
+fn case(judged: &JudgedStudy<'_>) -> Case {
     let failed = judged.planned.jobs.iter().zip(&judged.outcomes).find_map(|(job, outcome)| {
-        let Outcome::Failed { reason, last_words, folder } = outcome else { return None };
+        let RunOutcome::Failed { reason, last_words, folder } = outcome else { return None };
         Some(Case::Error(
             format!("{}: {reason}", job.name),
             format!("{}\nits whole output is in {folder}", last_words.join("\n")),

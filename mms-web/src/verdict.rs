@@ -10,7 +10,7 @@ use mms_documents::provenance::{Input, Provenance, VERSION};
 use mms_exact::Exact;
 use mms_judge::next::{Meshes, after_judgement, list};
 use mms_judge::results::{Comparison, Reading, axes, measure, own_roles};
-use mms_judge::table::{self, Orders};
+use mms_judge::table::{self, ExpectedOrders};
 use mms_judge::{Judgements, Unfollowed};
 use mms_results::Files;
 use mms_results::names::Names;
@@ -76,7 +76,8 @@ pub fn judge(
         rest = after;
     }
     let expected = options.expected_order.iter().map(|it| it.to_string().parse());
-    let orders = Orders::new(&expected.filter_map(Result::ok).collect::<Vec<_>>(), TOLERANCE);
+    let orders =
+        ExpectedOrders::new(&expected.filter_map(Result::ok).collect::<Vec<_>>(), TOLERANCE);
     let report = match options.errors {
         true => of_table(&all, &orders)?,
         false => of_results(field, &Folder(all), options, &orders)?,
@@ -90,7 +91,7 @@ pub fn judge(
 }
 
 /// Judges a table of errors.
-fn of_table(files: &[(&str, &[u8])], orders: &Orders) -> anyhow::Result<Judgements> {
+fn of_table(files: &[(&str, &[u8])], orders: &ExpectedOrders) -> anyhow::Result<Judgements> {
     let [(name, bytes)] = files else { bail!("expected one table of errors") };
     let text = str::from_utf8(bytes).with_context(|| format!("`{}` is no text", shown(name)))?;
     let (measured, notes) = table::read(Path::new(name), text, orders, None)?;
@@ -109,7 +110,7 @@ fn of_results(
     field: &FieldText,
     folder: &Folder<'_>,
     options: &JudgeOptions,
-    orders: &Orders,
+    orders: &ExpectedOrders,
 ) -> Result<Judgements, Mistake> {
     let input = field.compiled()?;
     let own: Vec<_> = input.compiled.model.own.keys().copied().collect();

@@ -1,7 +1,7 @@
 //! Mistakes about rings, in bilinear finite elements that share nothing with the solver of this project: each is named.
 
 use mms_codegen::Options;
-use mms_diagnosis::answer::{Diagnosis, Finding};
+use mms_diagnosis::answer::{Diagnosis, DiagnosisFinding};
 use mms_diagnosis::evidence::{Mesh, Snapshot};
 use mms_diagnosis::exact::Quantity;
 use mms_diagnosis::falls::Falls;
@@ -189,7 +189,7 @@ fn mistakes_about_rings_are_named() {
         let evidence = Evidence::Results(meshes.to_vec());
         diagnose(&scene, &evidence, &solver, &material, &Unfollowed).expect("a diagnosis")
     };
-    assert_eq!(of(RIGHT).finding, Finding::Nothing);
+    assert_eq!(of(RIGHT).finding, DiagnosisFinding::Nothing);
     let mistakes = [
         ("hoop_missing", Solid { has_force: false, has_strain: false, ..RIGHT }),
         ("hoop_force_missing", Solid { has_force: false, ..RIGHT }),
@@ -205,7 +205,12 @@ fn mistakes_about_rings_are_named() {
     for (name, solid) in sampled(mistakes, 7) {
         let found = of(solid);
         let first = &found.ranked[0];
-        assert_eq!((found.finding, first.name), (Finding::Named, name), "{:?}", found.ranked);
+        assert_eq!(
+            (found.finding, first.name),
+            (DiagnosisFinding::Named, name),
+            "{:?}",
+            found.ranked
+        );
         assert!(first.explained > 0.9, "{name}: {}", first.explained);
     }
 }

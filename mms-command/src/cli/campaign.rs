@@ -15,9 +15,9 @@ use mms_files::read::{self, FileKind};
 use mms_files::shell::{command, quoted};
 use mms_files::store::Store;
 use mms_harness::canary;
-use mms_harness::judged::Judged;
+use mms_harness::judged::JudgedStudy;
 use mms_harness::only::Only;
-use mms_harness::plan::{Job, Plan, Planned};
+use mms_harness::plan::{CampaignPlan, Job, PlannedStudy};
 use mms_harness::report::Report;
 use mms_harness::work::{self, Watcher, Work, hash, side_by_side_of};
 use mms_options::field::open;
@@ -108,7 +108,7 @@ impl Campaign {
             true => Some(canary::plan(&self.file, file.clone(), &only, &open)?),
             false => None,
         };
-        let plan = Plan::new(&self.file, file, &only, &open)?;
+        let plan = CampaignPlan::new(&self.file, file, &only, &open)?;
         let given = self.folder();
         let (store, set_aside) = Store::open(&given)?;
         let folder = given.canonicalize().with_context(|| read::cannot_read(&given))?;
@@ -129,16 +129,16 @@ impl Campaign {
     }
 
     /// Makes the runs of a plan, and judges its studies.
-    fn judged<'a>(&self, work: &Work<'a>) -> anyhow::Result<Vec<Judged<'a>>> {
+    fn judged<'a>(&self, work: &Work<'a>) -> anyhow::Result<Vec<JudgedStudy<'a>>> {
         let jobs = self.jobs.unwrap_or_else(|| side_by_side_of(work.plan));
         let all = work.plan.studies.iter().zip(work.outcomes(jobs)?);
-        all.map(|(planned, outcomes)| Judged::new(work, planned, outcomes, &signed)).collect()
+        all.map(|(planned, outcomes)| JudgedStudy::new(work, planned, outcomes, &signed)).collect()
     }
 
     fn carry_out(
         &self,
         work: &Work<'_>,
-        canaries: Option<&Plan>,
+        canaries: Option<&CampaignPlan>,
         text: &str,
     ) -> anyhow::Result<Outcome> {
         let plan = work.plan;
@@ -187,7 +187,7 @@ impl Campaign {
 
     /// Shows the runs, and which of them are done.
     fn show(&self, work: &Work<'_>) -> anyhow::Result<Outcome> {
-        let describe = |planned: &Planned, job: &Job, is_done: bool, words: Vec<String>| {
+        let describe = |planned: &PlannedStudy, job: &Job, is_done: bool, words: Vec<String>| {
             let line = words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
             let state = if is_done { "done" } else { "to do" };
             let Job { name, cells, .. } = job;
@@ -224,7 +224,7 @@ impl Campaign {
         &self,
         work: &Work<'_>,
         none: &str,
-        say_of: impl Fn(&Planned, &Job, bool) -> anyhow::Result<Option<(String, ListedRun)>>,
+        say_of: impl Fn(&PlannedStudy, &Job, bool) -> anyhow::Result<Option<(String, ListedRun)>>,
     ) -> anyhow::Result<Outcome> {
         let (mut lines, mut documents) = (Vec::new(), Vec::new());
         for planned in &work.plan.studies {
@@ -258,7 +258,7 @@ impl Campaign {
 }
 
 /// The origin of a judgement of a campaign.
-fn signed(planned: &Planned) -> Provenance {
+fn signed(planned: &PlannedStudy) -> Provenance {
     this_command("judge", planned.input.provenance(&planned.study.set))
 }
 
@@ -283,7 +283,7 @@ struct Progress {
 }
 
 impl Progress {
-    fn new(plan: &Plan, canaries: Option<&Plan>) -> anyhow::Result<Self> {
+    fn new(plan: &CampaignPlan, canaries: Option<&CampaignPlan>) -> anyhow::Result<Self> {
         let studies = [Some(plan), canaries].into_iter().flatten().flat_map(|it| &it.studies);
         let all = studies.map(|it| it.jobs.len()).sum();
         Ok(Self { all, ended: AtomicUsize::new(0), interrupted: Interrupted::listen()? })
@@ -296,7 +296,7 @@ impl Progress {
 }
 
 impl Watcher for Progress {
-    fn done(&self, job: &Job, outcome: &work::Outcome, is_new: bool) {
+    fn done(&self, job: &Job, outcome: &work::RunOutcome, is_new: bool) {
         self.say(line(job, outcome, is_new));
     }
 

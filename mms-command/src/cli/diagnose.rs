@@ -8,7 +8,7 @@ use clap::{Args, Parser as _, ValueEnum};
 use mms_codegen::variation::Variation;
 use mms_codegen::{Options, Selection};
 use mms_convergence::TOLERANCE;
-use mms_diagnosis::answer::Finding;
+use mms_diagnosis::answer::DiagnosisFinding;
 use mms_diagnosis::changed::Without;
 use mms_diagnosis::evidence::Mesh;
 use mms_diagnosis::exact::Quantity as Seen;
@@ -24,7 +24,7 @@ use mms_judge::diagnose::{
 };
 use mms_judge::next::{self, Meshes};
 use mms_judge::results::Results;
-use mms_judge::table::{Order, Orders};
+use mms_judge::table::{ExpectedOrders, NamedOrder};
 use mms_options::field::{Variant, open};
 use mms_options::method::{MethodOptions, finite, length, positive};
 use mms_report::{Diagnosed, Hypotheses, Plan, Step};
@@ -117,7 +117,7 @@ pub struct Diagnose {
     like: Option<Alike>,
     /// The expected order of results on two or more meshes, as for `mms judge`.
     #[arg(long, value_name = "[NAME=]P,..", value_delimiter = ',')]
-    expected_order: Vec<Order>,
+    expected_order: Vec<NamedOrder>,
     /// Results of a right version of your solver, one for each FILE, on the same meshes and at the same times. FILEs are
     /// compared with them in place of the exact solution, so that the error of your method cancels.
     #[arg(long, value_name = "FILE", value_delimiter = ',', requires = "files", conflicts_with_all = ["like", "expected_order"])]
@@ -263,7 +263,7 @@ impl Diagnose {
             }
             _ => None,
         };
-        let solver = Solver { without, like, falls, is_beside: !right.is_empty() };
+        let solver = Solver { without, like, falls, is_compared_with_right_run: !right.is_empty() };
         let factors = Factors::new(&exact);
         let times = |parameter, factor| factors.times(parameter, factor);
         let material = Material { names: factors.names(), times: &times };
@@ -283,8 +283,8 @@ impl Diagnose {
             }
         }
         Ok(match diagnosis.finding {
-            Finding::Nothing => Outcome::AsExpected,
-            Finding::Named | Finding::Unexplained => Outcome::Refuted,
+            DiagnosisFinding::Nothing => Outcome::AsExpected,
+            DiagnosisFinding::Named | DiagnosisFinding::Unexplained => Outcome::Refuted,
         })
     }
 
@@ -324,8 +324,8 @@ impl Diagnose {
         meshes: &[Mesh],
         like: Option<&Method>,
         gradients: &[Quantity],
-    ) -> anyhow::Result<Orders> {
-        let mut orders = Orders::new(&self.expected_order, TOLERANCE);
+    ) -> anyhow::Result<ExpectedOrders> {
+        let mut orders = ExpectedOrders::new(&self.expected_order, TOLERANCE);
         let Some(like) = like.filter(|_| meshes.len() > 1 && self.expected_order.is_empty()) else {
             return Ok(orders);
         };

@@ -11,7 +11,7 @@ use mms_files::read::{self, FileKind};
 use mms_files::store::digest;
 use mms_judge::Judgements;
 use mms_judge::next;
-use mms_judge::table::{self, Order, Orders};
+use mms_judge::table::{self, ExpectedOrders, NamedOrder};
 use mms_options::method::positive;
 use mms_report::View;
 use mms_spec::foreign;
@@ -79,7 +79,7 @@ pub struct Judge {
     /// QUANTITY:NORM or column; the order of H1 of a quantity is then one less. `time` is the order in dt, if h and dt are
     /// refined separately.
     #[arg(long, value_name = "[NAME=]P,..", value_delimiter = ',')]
-    expected_order: Vec<Order>,
+    expected_order: Vec<NamedOrder>,
     /// The largest allowed difference between the observed and the expected order.
     #[arg(long, value_name = "W", value_parser = positive, default_value_t = TOLERANCE)]
     tolerance: f64,
@@ -133,9 +133,9 @@ impl Judge {
         Ok(outcome(report.verdict()))
     }
 
-    fn orders(&self) -> Orders {
-        let orders = Orders::new(&self.expected_order, self.tolerance);
-        Orders { start: self.results.start, ..orders }
+    fn orders(&self) -> ExpectedOrders {
+        let orders = ExpectedOrders::new(&self.expected_order, self.tolerance);
+        ExpectedOrders { start: self.results.start, ..orders }
     }
 }
 

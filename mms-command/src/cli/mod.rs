@@ -118,7 +118,7 @@ enum Outcome {
 
 /// Runs the command line of this program, or supervises a run of a campaign; returns the exit code.
 pub fn run() -> u8 {
-    if let Some(arguments) = supervisor::asked(arguments()) {
+    if let Some(arguments) = supervisor::supervisor_arguments(arguments()) {
         return supervisor::run(&arguments);
     }
     let outcome = answer().unwrap_or_else(|error| {

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use mms_campaign::supervisor::{STDERR, STDOUT};
 use mms_files::program::arguments;
 use mms_files::shell;
-use mms_harness::judged::Judged;
-use mms_harness::plan::Planned;
-use mms_harness::work::Outcome;
+use mms_harness::judged::JudgedStudy;
+use mms_harness::plan::PlannedStudy;
+use mms_harness::work::RunOutcome;
 use mms_judge::next::{Meshes, Words, after_judgement, command, each, list};
 use mms_lab::tradeoff::search::{Goal, Trial};
 use mms_report::tradeoff::Report as Tradeoff;
@@ -45,14 +45,14 @@ pub fn changed(words: &[String], options: &[(&str, String)]) -> Words {
 }
 
 /// The results of a study of a campaign whose file lies in the folder `here`.
-fn of_study(judged: &Judged<'_>, files: &[String], here: &Path) -> Meshes {
-    let Planned { study, jobs, .. } = judged.planned;
+fn of_study(judged: &JudgedStudy<'_>, files: &[String], here: &Path) -> Meshes {
+    let PlannedStudy { study, jobs, .. } = judged.planned;
     let path = |word: &Spanned<String>| match word.value.ends_with(".toml") {
         true => here.join(&word.value).to_string_lossy().into_owned(),
         false => word.value.clone(),
     };
     let done = jobs.iter().zip(&judged.outcomes);
-    let done = done.filter(|(_, outcome)| matches!(outcome, Outcome::Finished(_)));
+    let done = done.filter(|(_, outcome)| matches!(outcome, RunOutcome::Finished(_)));
     let h: Vec<f64> = done.map(|(job, _)| judged.planned.size(job)).collect();
     let texts = |all: &[Spanned<String>]| -> Vec<String> {
         all.iter().map(|it| it.value.clone()).collect()
@@ -100,9 +100,9 @@ pub fn after_search(
 }
 
 /// The last output of the first failed run of a campaign; empty, if the run printed nothing.
-fn log_of(studies: &[Judged<'_>], store: &Path) -> Option<Words> {
+fn log_of(studies: &[JudgedStudy<'_>], store: &Path) -> Option<Words> {
     let folders = studies.iter().flat_map(|it| &it.outcomes).filter_map(|outcome| match outcome {
-        Outcome::Failed { folder, .. } => Some(store.join(folder)),
+        RunOutcome::Failed { folder, .. } => Some(store.join(folder)),
         _ => None,
     });
     let logs = folders.flat_map(|it| [STDERR, STDOUT].map(|name| it.join(name)));
@@ -114,7 +114,7 @@ fn log_of(studies: &[Judged<'_>], store: &Path) -> Option<Words> {
 /// Sets the next command of each judgement of a campaign, and returns the next command of the campaign, whose command so far has
 /// these words: it prints the log of a failed run in this store, shows the command of a run that printed nothing, or diagnoses.
 pub fn after_campaign(
-    studies: &mut [Judged<'_>],
+    studies: &mut [JudgedStudy<'_>],
     here: &Path,
     store: &Path,
     words: &[String],
@@ -126,8 +126,8 @@ pub fn after_campaign(
         let next = after_judgement(judgements, Some(&meshes), is_chosen);
         study.judgements.iter_mut().for_each(|it| it.next.clone_from(&next));
     }
-    let has_failed = |it: &&Judged<'_>| {
-        let failed = |it: &Outcome| matches!(it, Outcome::Failed { .. });
+    let has_failed = |it: &&JudgedStudy<'_>| {
+        let failed = |it: &RunOutcome| matches!(it, RunOutcome::Failed { .. });
         it.mistake.is_some() || it.outcomes.iter().any(failed)
     };
     if let Some(log) = log_of(studies, store) {

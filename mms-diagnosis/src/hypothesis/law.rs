@@ -2,7 +2,7 @@
 
 use mms_runtime::Matrix;
 
-use super::{Change, Given, Hypothesis, Kind, Known, Of, OfStress};
+use super::{Change, Given, Hypothesis, HypothesisKind, Known, Of, OfStress};
 use crate::exact::Exact;
 use crate::law::{LAWS, Law};
 
@@ -127,7 +127,7 @@ fn other_laws<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         } else {
             ("material", "another W with the same moduli at rest")
         };
-        let kind = if is_linear { Kind::Mistake } else { Kind::Choice };
+        let kind = if is_linear { HypothesisKind::Mistake } else { HypothesisKind::Choice };
         let which = (!is_linear).then_some(law.name.into());
         Hypothesis { kind, which, ..Hypothesis::fixed(name, says, Change::Stress(Of::Law, change)) }
     };

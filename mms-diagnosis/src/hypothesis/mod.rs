@@ -155,19 +155,19 @@ impl Known {
 
 /// Whether a hypothesis is a mistake or a choice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
+pub enum HypothesisKind {
     /// A mistake.
     Mistake,
     /// A choice that is right elsewhere.
     Choice,
 }
 
-impl Kind {
+impl HypothesisKind {
     /// The name of the kind.
     pub fn name(self) -> &'static str {
         match self {
-            Kind::Mistake => "mistake",
-            Kind::Choice => "choice",
+            HypothesisKind::Mistake => "mistake",
+            HypothesisKind::Choice => "choice",
         }
     }
 }
@@ -201,7 +201,7 @@ pub struct Hypothesis<const D: usize> {
     /// A description in a sentence.
     pub says: &'static str,
     /// Whether it is a mistake.
-    pub kind: Kind,
+    pub kind: HypothesisKind,
     /// The part of the problem that it changes.
     pub change: Change<D>,
     /// The possible sizes.
@@ -219,7 +219,7 @@ pub struct Hypothesis<const D: usize> {
     /// The one quantity whose output it changes.
     pub only: Option<Quantity>,
     /// Whether it is a mistake of its own only if other quantities of the results are right.
-    pub is_beside: bool,
+    pub needs_other_quantities_right: bool,
     /// Whether its size is proportional to a time step or a cell, and so is smaller on a finer mesh.
     pub is_of_mesh: bool,
 }
@@ -230,7 +230,7 @@ impl<const D: usize> Hypothesis<D> {
         Hypothesis {
             name,
             says,
-            kind: Kind::Mistake,
+            kind: HypothesisKind::Mistake,
             change,
             size: Size::Fixed,
             also: Vec::new(),
@@ -239,7 +239,7 @@ impl<const D: usize> Hypothesis<D> {
             face: None,
             which: None,
             only: None,
-            is_beside: false,
+            needs_other_quantities_right: false,
             is_of_mesh: false,
         }
     }
@@ -300,7 +300,7 @@ impl<const D: usize> Hypothesis<D> {
     }
 
     fn choice(self) -> Self {
-        Hypothesis { kind: Kind::Choice, ..self }
+        Hypothesis { kind: HypothesisKind::Choice, ..self }
     }
 
     /// Marks the hypothesis as one of several variants.
@@ -331,7 +331,7 @@ impl<const D: usize> Hypothesis<D> {
     /// Whether results of these quantities show it as a mistake of its own.
     pub fn is_of(&self, quantities: &[Quantity]) -> bool {
         let is_there = self.only.is_none_or(|it| quantities.contains(&it));
-        is_there && (quantities.len() > 1 || !self.is_beside)
+        is_there && (quantities.len() > 1 || !self.needs_other_quantities_right)
     }
 
     /// The sizes of a field that have names of their own.

@@ -138,7 +138,7 @@ pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         all.extend(only.into_iter().zip(QUANTITIES).map(|((which, change), quantity)| {
             let says =
                 "components of this quantity are in another order, beside other quantities that are right";
-            Hypothesis { only: Some(quantity), is_beside: true, ..fixed(says, change).of(which) }
+            Hypothesis { only: Some(quantity), needs_other_quantities_right: true, ..fixed(says, change).of(which) }
         }));
         let transposed = Hypothesis::fixed(
             "gradient_transposed",

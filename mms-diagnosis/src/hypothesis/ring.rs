@@ -70,7 +70,7 @@ fn lifted<const D: usize>(it: Hypothesis<3>) -> Hypothesis<D> {
         face: it.face,
         which,
         only: it.only,
-        is_beside: it.is_beside,
+        needs_other_quantities_right: it.needs_other_quantities_right,
         is_of_mesh: it.is_of_mesh,
         change: Change::InSpace(Box::new(it)),
     }

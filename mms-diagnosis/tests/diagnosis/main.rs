@@ -10,17 +10,17 @@ mod statics;
 mod tangent;
 
 use field::{DENSITY, FREQUENCY, LAMBDA, MU, Square};
-use mms_diagnosis::answer::{Diagnosis, Finding, Limits, Place, Ranked, Rung};
+use mms_diagnosis::answer::{Diagnosis, DiagnosisFinding, ErrorPlace, Limits, Ranked, Rung};
 use mms_diagnosis::changed::Without;
 use mms_diagnosis::closed_form::{self, ClosedForm};
 use mms_diagnosis::evidence::{DEGREE, Frame, Mesh, Snapshot};
 use mms_diagnosis::exact::{Exact, Quantity};
-use mms_diagnosis::excluded::{Shown, Study, excluded};
+use mms_diagnosis::excluded::{Study, VisibleSizes, excluded};
 use mms_diagnosis::hypothesis::{self, all};
 use mms_diagnosis::smooth::Smooth;
 use mms_diagnosis::solver::Solver;
 use mms_diagnosis::state::{self, Computed, Response};
-use mms_diagnosis::table::{self, Measure, Table};
+use mms_diagnosis::table::{self, Measure, StressTable};
 use mms_diagnosis::{ordinary, patterns, step};
 use mms_runtime::study::{Frame as State, Observer, Solve as _, Watch};
 use mms_runtime::{
@@ -36,7 +36,7 @@ type Tensor = Matrix<f64, 2>;
 /// The name of the mistake if one is named, otherwise the finding.
 fn name(diagnosis: &Diagnosis) -> &'static str {
     match diagnosis.finding {
-        Finding::Named => diagnosis.ranked[0].name,
+        DiagnosisFinding::Named => diagnosis.ranked[0].name,
         other => other.name(),
     }
 }
@@ -69,7 +69,7 @@ fn of_law(stress: impl Fn(&Tensor) -> Tensor) -> Diagnosis {
     let gradient: Vec<Tensor> = points(5).iter().map(|x| field::gradient(0.0, x) * 3.0).collect();
     let stress: Vec<Tensor> = gradient.iter().map(stress).collect();
     let reference = points(5);
-    let table = Table {
+    let table = StressTable {
         reference,
         gradient,
         measure: Measure::FirstPiola,
@@ -222,7 +222,7 @@ fn accelerations_at_an_exact_state_name_a_term() {
     assert!((viscous.ranked[0].factor[0] / ETA - 1.0).abs() < 0.01, "{viscous:?}");
     // Scatter from point to point is no mistake of a term.
     let noise = |x: &Point| a(x) + Point::new((1e4 * x[0] * x[1]).sin(), (9e3 * x[0]).cos()) * 5.0;
-    assert_ne!(of_accelerations(noise).finding, Finding::Named);
+    assert_ne!(of_accelerations(noise).finding, DiagnosisFinding::Named);
 }
 
 const ETA: f64 = 1.5;
@@ -441,7 +441,10 @@ fn what_acts_as_the_first_does_not_hold_its_name_back() {
             Ranked { explained: 0.981, is_plausible: false, acts_as_first, ..first.clone() };
         limits.finding(&[first, other], 10.0)
     };
-    assert_eq!((found(false), found(true)), (Finding::Unexplained, Finding::Named));
+    assert_eq!(
+        (found(false), found(true)),
+        (DiagnosisFinding::Unexplained, DiagnosisFinding::Named)
+    );
     let other = |name: &str| all.iter().find(|it| it.name == name).expect("a hypothesis");
     let [same, another] = ["inertia_missing", "constant_force"].map(other);
     assert_eq!(all[0].name, "mass_factor");
@@ -473,7 +476,7 @@ fn what_a_small_error_excludes_would_make_a_larger_one() {
     let all = excluded(&exact, &study, &all(&exact)).unwrap();
     let shown = |title: &str| all.iter().find(|it| it.title == title).unwrap().shown;
     let least = |title: &str| match shown(title) {
-        Shown::From { least, .. } => least,
+        VisibleSizes::From { least, .. } => least,
         other => panic!("{title}: {other:?}"),
     };
     // The error that a mistake adds to a run, over that error.
@@ -491,11 +494,11 @@ fn what_a_small_error_excludes_would_make_a_larger_one() {
     }
     let swapped = added(&Mistaken { moduli: [MU, LAMBDA], ..right });
     match shown("moduli_swapped") {
-        Shown::Always(Some(times)) => assert!((times / swapped - 1.0).abs() < 0.3),
+        VisibleSizes::Always(Some(times)) => assert!((times / swapped - 1.0).abs() < 0.3),
         other => panic!("{other:?}"),
     }
     // Uniform moduli are the same at x.
-    assert!(matches!(shown("moduli_at_present"), Shown::Never(times) if times < 1e-9));
+    assert!(matches!(shown("moduli_at_present"), VisibleSizes::Never(times) if times < 1e-9));
     // An error as large as the body excludes no mistake that keeps the body whole.
     let coarse = Study { errors: vec![(Quantity::Displacement, 1.0)], ..study };
     let all = excluded(&exact, &coarse, &hypothesis::all(&exact)).unwrap();
@@ -605,7 +608,7 @@ fn values_in_another_order_are_named() {
         ..Snapshot::default()
     };
     let other = patterns::zero(&exact, &[&zero]).expect("zeros");
-    let unexplained = Diagnosis { finding: Finding::Unexplained, ..other.clone() };
+    let unexplained = Diagnosis { finding: DiagnosisFinding::Unexplained, ..other.clone() };
     let named = |which: &str| ("points_permuted", which.to_owned());
     let (wide, count) = ([32, 18], 32 * 18);
     let order = |order: &dyn Fn(usize) -> usize| of(wide, &unexplained, order);
@@ -619,8 +622,14 @@ fn values_in_another_order_are_named() {
     assert_eq!(order(&|k| shuffled[k]), named(""));
     // Another name stays, unless most of the error is noise.
     assert_eq!(of(wide, &other, &|k| shuffled[k]).0, "output_zero");
-    let place =
-        |smooth| Place { at: Vec::new(), time: 0.03, face: None, plane: None, order: None, smooth };
+    let place = |smooth| ErrorPlace {
+        at: Vec::new(),
+        time: 0.03,
+        face: None,
+        plane: None,
+        order: None,
+        smooth,
+    };
     for (smooth, name) in [(0.9, "output_zero"), (0.1, "points_permuted")] {
         let other = Diagnosis { place: Some(place(smooth)), ..other.clone() };
         assert_eq!(of(wide, &other, &|k| shuffled[k]).0, name);

@@ -3,7 +3,7 @@
 
 use mms_diagnosis::evidence::{DEGREE, Frame, Mesh, Snapshot};
 use mms_diagnosis::exact::{Exact, Quantity};
-use mms_diagnosis::excluded::{Shown, Study, excluded};
+use mms_diagnosis::excluded::{Study, VisibleSizes, excluded};
 use mms_diagnosis::hypothesis::{Hypothesis, all};
 use mms_diagnosis::ordinary;
 use mms_diagnosis::run::Responses as _;
@@ -224,7 +224,7 @@ fn what_a_pass_excludes_adds_twice_its_error_on_paper() {
         _ => [1.0, 1.0, factor],
     };
     for name in ["force_factor", "traction_factor", "moduli_factor"] {
-        let Shown::From { right, least } = of(name).shown else { panic!("{:?}", of(name)) };
+        let VisibleSizes::From { right, least } = of(name).shown else { panic!("{:?}", of(name)) };
         assert_eq!(right, 1.0);
         let [less, more] = [1.0 - least, 1.0 + least].map(|factor| mean(with(name, factor)));
         // The search accepts an error within a fifth of the noticed one.
@@ -232,13 +232,13 @@ fn what_a_pass_excludes_adds_twice_its_error_on_paper() {
         assert!(nearest < 0.2, "{name} {least:e}: {less:e} {more:e}");
     }
     // The sign of b is a mistake without a size.
-    let Shown::Always(Some(times)) = of("force_sign").shown else {
+    let VisibleSizes::Always(Some(times)) = of("force_sign").shown else {
         panic!("{:?}", of("force_sign"))
     };
     let expected = mean([-1.0, 1.0, 1.0]) / error;
     assert!((times / expected - 1.0).abs() < 1e-3, "{times} {expected}");
     // Without motion these mistakes add nothing, and in one dimension a transposed stress is the same.
     for name in ["damping", "start_at_rest", "force_late", "stress_transposed"] {
-        assert_eq!(of(name).shown, Shown::Never(0.0), "{name}");
+        assert_eq!(of(name).shown, VisibleSizes::Never(0.0), "{name}");
     }
 }

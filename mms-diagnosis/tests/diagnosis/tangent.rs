@@ -4,7 +4,7 @@ use mms_diagnosis::answer::Diagnosis;
 use mms_diagnosis::exact::Exact;
 use mms_diagnosis::hypothesis::all;
 use mms_diagnosis::table::{self, Measure};
-use mms_diagnosis::tangent::{self, Table};
+use mms_diagnosis::tangent::{self, TangentTable};
 use mms_runtime::{Body, Domain, ManufacturedField, Material, Matrix, Vector};
 
 use super::field::{self, LAMBDA, MU};
@@ -69,7 +69,7 @@ fn of_moduli(moduli: [f64; 2], rate: impl Fn(&At, &Tensor) -> Tensor) -> Diagnos
     let gradient: Vec<Tensor> = reference.iter().map(|x| field::gradient(0.0, x) * 3.0).collect();
     let at = gradient.iter().map(|h| At::new(h, moduli));
     let tangent = at.flat_map(|at| rows(&PLANE, |unit| rate(&at, unit))).collect();
-    let table = Table { reference, gradient, tangent, rounding: 0.0 };
+    let table = TangentTable { reference, gradient, tangent, rounding: 0.0 };
     tangent::diagnose(&exact, &table, all(&exact)).unwrap()
 }
 
@@ -182,7 +182,7 @@ fn orders_of_voigt_are_named_in_space() {
         };
         let tangent = gradient.iter().flat_map(at).collect();
         let (reference, gradient) = (reference.clone(), gradient.clone());
-        let table = Table { reference, gradient, tangent, rounding: 0.0 };
+        let table = TangentTable { reference, gradient, tangent, rounding: 0.0 };
         tangent::diagnose(&exact, &table, all(&exact)).unwrap()
     };
     let normal = [[0, 0], [1, 1], [2, 2]];
@@ -204,7 +204,7 @@ fn orders_of_voigt_are_named_in_space() {
         });
         let stress = stress.collect();
         let (reference, gradient) = (reference.clone(), gradient.clone());
-        let table = table::Table {
+        let table = table::StressTable {
             reference,
             gradient,
             measure,

@@ -10,7 +10,7 @@ use mms_spec::quantity::Quantity;
 use super::Reading;
 use crate::measured::worst;
 use crate::results::{Comparison, Over, Reading as Judging, Results, measure};
-use crate::table::Orders;
+use crate::table::ExpectedOrders;
 
 /// Finds how the errors of results fall from mesh to mesh; `None` for one mesh.
 ///
@@ -20,7 +20,7 @@ pub fn falls(
     all: Vec<Results>,
     wanted: &[Quantity],
     reading: &Reading<'_>,
-    orders: &Orders,
+    orders: &ExpectedOrders,
     exact: &mut Exact,
 ) -> anyhow::Result<Option<Falls>> {
     if all.len() < 2 {

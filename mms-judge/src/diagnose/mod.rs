@@ -6,11 +6,11 @@ mod nodes;
 mod parameters;
 
 use anyhow::{Context as _, bail, ensure};
-use mms_diagnosis::answer::Finding;
+use mms_diagnosis::answer::DiagnosisFinding;
 use mms_diagnosis::changed::Without;
 use mms_diagnosis::evidence::{Mesh as Level, Snapshot as Instant};
 use mms_diagnosis::exact::Quantity;
-use mms_diagnosis::scene::{Evidence, LawOf, TangentOf};
+use mms_diagnosis::scene::{Evidence, StressData, TangentData};
 use mms_diagnosis::state::{Computed, Response};
 use mms_diagnosis::table::Measure;
 use mms_results::mesh::Mesh;
@@ -155,12 +155,12 @@ pub fn read(all: &[Results], reading: &Reading<'_>, exact: &mut Exact) -> anyhow
 /// # Errors
 /// A quantity that is too large to derive.
 pub fn question(
-    found: Finding,
+    found: DiagnosisFinding,
     evidence: &Evidence,
     exact: &Exact,
 ) -> anyhow::Result<Option<String>> {
     let Evidence::Results(meshes) = evidence else { return Ok(None) };
-    if found == Finding::Nothing {
+    if found == DiagnosisFinding::Nothing {
         return Ok(None);
     }
     let Some(last) = meshes.last().and_then(|it| it.snapshots.last()) else { return Ok(None) };
@@ -326,7 +326,7 @@ fn law(
             "{}: F and the tangent of different rows",
             snapshot.path
         );
-        return Ok(Evidence::Tangent(TangentOf {
+        return Ok(Evidence::Tangent(TangentData {
             reference,
             gradient: h.numbers.into_owned(),
             rounding: found.rounding,
@@ -350,7 +350,7 @@ fn law(
         "{}: F and stress of different rows",
         snapshot.path
     );
-    Ok(Evidence::Law(LawOf {
+    Ok(Evidence::Law(StressData {
         reference,
         rounding_of_gradient: if h.stored == Stored::Double { 0.0 } else { h.rounding },
         gradient: h.numbers.into_owned(),

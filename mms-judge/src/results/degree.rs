@@ -3,9 +3,9 @@
 use anyhow::bail;
 use mms_spec::quantity::Quantity;
 
-use super::Level;
+use super::MeasuredMesh;
 use super::level::{Errors, Sampling};
-use crate::table::Orders;
+use crate::table::ExpectedOrders;
 
 /// The orders at points of a quadratic solution.
 const AT_POINTS: [f64; 2] = [2.6, 3.4];
@@ -17,11 +17,15 @@ const OVER_CELLS: [f64; 2] = [1.5, 2.4];
 ///
 /// # Errors
 /// Both readings, with their orders and with the option that chooses each.
-pub fn validate_linear(levels: &[Level], sizes: &[f64], orders: &Orders) -> anyhow::Result<()> {
+pub fn validate_linear(
+    levels: &[MeasuredMesh],
+    sizes: &[f64],
+    orders: &ExpectedOrders,
+) -> anyhow::Result<()> {
     if orders.degree != Some(1) {
         return Ok(());
     }
-    let of = |level: &Level| {
+    let of = |level: &MeasuredMesh| {
         let is_u = |it: &&Errors| {
             it.quantity == Quantity::Displacement
                 && it.sampling == Sampling::Cells

@@ -8,7 +8,7 @@ use mms_spec::quantity::Quantity;
 
 use super::level::Sampling;
 use super::start::Lowered;
-use crate::table::{OF, Orders, TIME};
+use crate::table::{ExpectedOrders, OF, TIME};
 
 /// The norms of results.
 const NORMS: [&str; 4] = ["l1", "l2", "linf", "h1"];
@@ -41,7 +41,7 @@ impl Sampling {
 /// The expected orders of a norm in h and in dt. Gradients have one order less than u, or the order of u where they are more
 /// accurate than elsewhere; a start may lower the orders of v and a.
 pub fn expected(
-    (orders, lowered): (&Orders, &Lowered),
+    (orders, lowered): (&ExpectedOrders, &Lowered),
     (quantity, sampling): (Quantity, Sampling),
     norm: &str,
 ) -> [ExpectedOrder; 2] {
@@ -59,7 +59,7 @@ pub fn expected(
 }
 
 /// Renames orders to the names in results: PK1 is `first_piola_kirchhoff`, and H1 is `h1`.
-pub fn named(orders: &Orders) -> Orders {
+pub fn named(orders: &ExpectedOrders) -> ExpectedOrders {
     let quantity = |name: &str| match Quantity::from_name(name) {
         Some(quantity) if quantity.symbol() != name => quantity.name().to_owned(),
         _ => name.to_owned(),
@@ -73,13 +73,13 @@ pub fn named(orders: &Orders) -> Orders {
         None => norm(&quantity(name)),
     };
     let named = orders.named.iter().map(|(own, order)| (name(own), *order)).collect();
-    Orders { named, ..orders.clone() }
+    ExpectedOrders { named, ..orders.clone() }
 }
 
 /// Refuses orders of quantities or norms that are not judged.
 pub fn validate_orders(
     quantities: &[(Quantity, Sampling)],
-    orders: &Orders,
+    orders: &ExpectedOrders,
     has_steps: bool,
 ) -> anyhow::Result<()> {
     let is_quantity =

@@ -11,10 +11,10 @@ impl SnapshotErrors<'_> {
     ///
     /// # Errors
     /// The motion cannot be evaluated.
-    pub fn is_given(&mut self, quantity: Quantity, places: &[f64]) -> anyhow::Result<bool> {
+    pub fn is_input(&mut self, quantity: Quantity, places: &[f64]) -> anyhow::Result<bool> {
         let rounding = self.motion.reference.rounding;
         let are_on = |claims: &[Claim]| self.exact.are_on(claims, places, rounding);
-        let is_given = match quantity {
+        let is_input = match quantity {
             Quantity::BodyForce
             | Quantity::BodyForceDensity
             | Quantity::CurrentBodyForceDensity => true,
@@ -28,7 +28,7 @@ impl SnapshotErrors<'_> {
             Quantity::Traction => are_on(&[Claim::Free, Claim::Traction]),
             _ => false,
         };
-        Ok(is_given || self.exact.is_start(&[self.time])?)
+        Ok(is_input || self.exact.is_start(&[self.time])?)
     }
 }
 

@@ -8,7 +8,7 @@ use mms_results::{Snapshot, names::Values};
 use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
 
-use super::Level;
+use super::MeasuredMesh;
 use super::files::{Results, placed};
 use super::level::Reading;
 
@@ -22,7 +22,7 @@ pub const HUNDRED: f64 = 100.0;
 /// # Errors
 /// Results of none of the meshes.
 pub fn raise(
-    levels: &mut [Level],
+    levels: &mut [MeasuredMesh],
     (all, snapshots): (&[Results], &[Vec<usize>]),
     (tighter, own): (&Results, &[usize]),
     reading: &Reading<'_>,
@@ -64,7 +64,7 @@ pub fn raise(
                 // As for the error of rounding.
                 _ => 2.0 * dimension * l2 / size,
             };
-            measure.floor = measure.floor.max(HUNDRED * own);
+            measure.rounding_error = measure.rounding_error.max(HUNDRED * own);
         }
     }
     let shares =
@@ -83,7 +83,8 @@ fn differences(
     exact: &Exact,
 ) -> anyhow::Result<Vec<(Quantity, [f64; 3])>> {
     let (pairs, _) = pairing::points(one, other, reading.names).map_err(placed)?;
-    let (of_one, of_other) = (reading.all(one, exact)?, reading.all(other, exact)?);
+    let (of_one, of_other) =
+        (reading.judged_quantities(one, exact)?, reading.judged_quantities(other, exact)?);
     let mut found = Vec::new();
     for (quantity, a) in &of_one {
         let Some((_, b)) = of_other.iter().find(|(it, _)| it == quantity) else { continue };

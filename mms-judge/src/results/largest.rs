@@ -4,7 +4,7 @@ use mms_exact::Exact;
 use mms_spec::number::short;
 use mms_spec::quantity::Quantity;
 
-use super::Level;
+use super::MeasuredMesh;
 
 /// A point at this distance from a face, in lengths of a cell, is no longer near the face.
 const NEAR: f64 = 1.01;
@@ -12,7 +12,7 @@ const NEAR: f64 = 1.01;
 /// The place of the largest error of each quantity on the finest mesh: the point, and the faces that meet there, or how far they are.
 pub fn places(
     quantities: &[Quantity],
-    (levels, sizes): (&[Level], &[f64]),
+    (levels, sizes): (&[MeasuredMesh], &[f64]),
     exact: &Exact,
 ) -> Vec<String> {
     let finest = levels.iter().zip(sizes).min_by(|a, b| a.1.total_cmp(b.1));

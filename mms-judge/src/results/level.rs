@@ -102,7 +102,7 @@ pub struct Measure {
     /// The error.
     pub error: f64,
     /// The floor.
-    pub floor: f64,
+    pub rounding_error: f64,
 }
 
 /// The errors of a quantity in one snapshot.
@@ -127,7 +127,7 @@ pub struct Errors {
     /// The floor from the rounding of a time, and that time.
     pub of_time: [f64; 2],
     /// Whether a solver is given all values.
-    pub is_given: bool,
+    pub is_input: bool,
     /// The place X of the largest error, and how far each coordinate may be from what was meant.
     pub largest_at: (Vec<f64>, f64),
 }
@@ -151,7 +151,7 @@ pub struct Reading<'a> {
 }
 
 /// The findings of a snapshot.
-pub struct Found {
+pub struct SnapshotFindings {
     /// Errors of quantities.
     pub errors: Vec<Errors>,
     /// The shortest and the longest of the longest edges of cells, if there are cells.
@@ -273,7 +273,7 @@ impl Reading<'_> {
         time: f64,
         rounding: f64,
         exact: &mut Exact,
-    ) -> anyhow::Result<Found> {
+    ) -> anyhow::Result<SnapshotFindings> {
         let dimension = exact.dimension;
         let meanings = self.meanings(snapshot, exact)?;
         let motion = extent::motion(snapshot, &meanings, time, (exact, self.is_part))?;
@@ -357,14 +357,24 @@ impl Reading<'_> {
         let is_asked = degree.is_some() && dimension > 1 && errors.iter().any(is_rate);
         let is_inner = |point: &[f64]| !exact.is_on_face(point, rounding_of_places);
         let imbalance = if is_asked { mesh.imbalance(&is_inner) } else { None };
-        Ok(Found { errors, sizes, degree, imbalance, covered, unknown, how, sample, passed_over })
+        Ok(SnapshotFindings {
+            errors,
+            sizes,
+            degree,
+            imbalance,
+            covered,
+            unknown,
+            how,
+            sample,
+            passed_over,
+        })
     }
 
     /// All judged quantities of a snapshot, except tractions.
     ///
     /// # Errors
     /// A snapshot that cannot be read, and where.
-    pub fn all<'b>(
+    pub fn judged_quantities<'b>(
         &self,
         snapshot: &'b Snapshot,
         exact: &Exact,
@@ -424,7 +434,7 @@ impl Reading<'_> {
         let is_place =
             |it: &Meaning| matches!(it.role, Role::Reference | Role::Position | Role::Place);
         if found.iter().any(is_place) {
-            units::hold(snapshot, &found, exact)?;
+            units::validate(snapshot, &found, exact)?;
             return Ok(found);
         }
         let outside = |point: &[f64]| exact.body.distance(point);

@@ -41,10 +41,10 @@ pub use repeated::{Same, same};
 pub use start::Start;
 pub use units::known as unit;
 
-use self::level::{Errors, Found, Measure};
+use self::level::{Errors, Measure, SnapshotFindings};
 use self::start::Lowered;
-use crate::measured::{Measured, Norm, Objection, Run};
-use crate::table::Orders;
+use crate::measured::{Measured, Norm, Objection, RunSize};
+use crate::table::ExpectedOrders;
 use mms_exact::Exact;
 
 /// The measured errors, with notes and warnings about them.
@@ -78,11 +78,11 @@ pub struct Measurement {
 const FINE: f64 = 1e-6;
 
 /// One mesh, measured at all times.
-struct Level {
+struct MeasuredMesh {
     name: String,
     /// The errors of quantities, the largest over times.
     errors: Vec<Errors>,
-    found: Found,
+    found: SnapshotFindings,
 }
 
 /// The largest ratio of sizes, of cells in a mesh or of meshes in a study, that is not reported.
@@ -95,7 +95,7 @@ pub struct Comparison<'a> {
     /// The wanted times; empty for all that meshes have in common.
     pub times: &'a [f64],
     /// The expected orders.
-    pub orders: &'a Orders,
+    pub orders: &'a ExpectedOrders,
     /// Whether dt of each mesh is known, so that an order in time can be expected.
     pub has_steps: bool,
     /// Results of one of the meshes with a smaller tolerance of the solver.
@@ -154,16 +154,16 @@ pub fn measure(
     notes.extend(remarks::norms(&quantities));
     notes.extend(remarks::rings(exact));
     notes.push(remarks::left_out(&common, &levels, &own));
-    let is_given = levels.iter().flat_map(|it| &it.errors).all(|it| it.is_given);
-    remarks::suspicions(&levels, is_given, &mut warnings);
-    let runs = sizes.iter().map(|&cell_size| Run { cell_size, time_step: None }).collect();
+    let is_input = levels.iter().flat_map(|it| &it.errors).all(|it| it.is_input);
+    remarks::suspicions(&levels, is_input, &mut warnings);
+    let runs = sizes.iter().map(|&cell_size| RunSize { cell_size, time_step: None }).collect();
     let measured: Vec<_> =
         quantities.iter().map(|it| quantity(*it, &levels, (orders, &lowered))).collect();
     let part = levels.iter().find_map(|level| {
         level.found.covered.part.as_ref().map(|part| format!("`{}`: {part}", shown(&level.name)))
     });
     let objection = match &part {
-        _ if is_given => Some(given::objection()),
+        _ if is_input => Some(given::objection()),
         _ if is_blind => Some(start::objection()),
         Some(part) if !reading.is_part => Some(extent::objection(part)),
         _ => None,
@@ -199,16 +199,19 @@ fn level(
     snapshots: &[usize],
     reading: &Reading<'_>,
     exact: &mut Exact,
-) -> anyhow::Result<Level> {
+) -> anyhow::Result<MeasuredMesh> {
     let what = |errors: &Errors| (errors.quantity, errors.sampling);
-    let mut level: Option<Level> = None;
+    let mut level: Option<MeasuredMesh> = None;
     for snapshot in snapshots.iter().map(|&at| &results.snapshots[at]) {
         let Some(time) = snapshot.time else { continue };
         let found = reading.measure(snapshot, time.value, time.rounding, exact)?;
         match &mut level {
             None => {
-                level =
-                    Some(Level { name: results.name.clone(), errors: found.errors.clone(), found })
+                level = Some(MeasuredMesh {
+                    name: results.name.clone(),
+                    errors: found.errors.clone(),
+                    found,
+                })
             }
             Some(level) => {
                 ensure!(
@@ -232,12 +235,12 @@ fn level(
 impl Errors {
     /// Whether no error exceeds the rounding of the file.
     fn is_noise(&self) -> bool {
-        self.norms.iter().all(|(_, measure)| measure.error <= measure.floor)
+        self.norms.iter().all(|(_, measure)| measure.error <= measure.rounding_error)
     }
 
     /// Whether no error exceeds the rounding, and the file has enough digits to show it.
     fn is_exact(&self) -> bool {
-        let is_fine = |(_, measure): &(_, Measure)| measure.floor <= FINE * self.largest;
+        let is_fine = |(_, measure): &(_, Measure)| measure.rounding_error <= FINE * self.largest;
         self.is_noise() && self.norms.iter().filter(|(name, _)| *name != "h1").all(is_fine)
     }
 
@@ -246,7 +249,7 @@ impl Errors {
         self.largest = self.largest.max(other.largest);
         self.at_points = self.at_points.zip(other.at_points).map(|(a, b)| a.max(b));
         self.unit = self.unit.filter(|unit| other.unit == Some(*unit));
-        self.is_given &= other.is_given;
+        self.is_input &= other.is_input;
         if other.of_time[0] > self.of_time[0] {
             self.of_time = other.of_time;
         }
@@ -254,13 +257,16 @@ impl Errors {
             if *name == "linf" && one.error > most.error {
                 self.largest_at.clone_from(&other.largest_at);
             }
-            *most = Measure { error: most.error.max(one.error), floor: most.floor.max(one.floor) };
+            *most = Measure {
+                error: most.error.max(one.error),
+                rounding_error: most.rounding_error.max(one.rounding_error),
+            };
         }
     }
 }
 
 /// The quantities that all levels have, each with its sampling.
-fn quantities(levels: &[Level]) -> anyhow::Result<Vec<(Quantity, Sampling)>> {
+fn quantities(levels: &[MeasuredMesh]) -> anyhow::Result<Vec<(Quantity, Sampling)>> {
     let mut all = Vec::new();
     for errors in &levels[0].errors {
         for level in levels {
@@ -290,7 +296,7 @@ fn quantities(levels: &[Level]) -> anyhow::Result<Vec<(Quantity, Sampling)>> {
 /// Refuses to judge a mesh by points or by middles of cells alone, because orders there may be higher than elsewhere. Polygons
 /// are exempt, since their functions are not known.
 fn validate_evidence(
-    level: &Level,
+    level: &MeasuredMesh,
     quantities: &[(Quantity, Sampling)],
     over: Option<Over>,
 ) -> anyhow::Result<()> {
@@ -310,7 +316,7 @@ fn validate_evidence(
 
 /// h of each level, from the user, from cells or from points.
 fn lengths(
-    levels: &[Level],
+    levels: &[MeasuredMesh],
     given: &[f64],
     notes: &mut Vec<String>,
     warnings: &mut Vec<String>,
@@ -352,8 +358,8 @@ fn lengths(
 /// The errors of a quantity in the form for a judgement.
 fn quantity(
     (of, sampling): (Quantity, Sampling),
-    levels: &[Level],
-    (orders, lowered): (&Orders, &Lowered),
+    levels: &[MeasuredMesh],
+    (orders, lowered): (&ExpectedOrders, &Lowered),
 ) -> crate::measured::Quantity {
     let errors: Vec<&Errors> = levels
         .iter()
@@ -366,7 +372,7 @@ fn quantity(
             name: name.into(),
             expected: expected::expected((orders, lowered), (of, sampling), name),
             errors: measures.iter().map(|it| Some(it.error)).collect(),
-            floors: measures.iter().map(|it| it.floor).collect(),
+            floors: measures.iter().map(|it| it.rounding_error).collect(),
             rounding: 0.0,
             is_exact: errors.iter().all(|it| it.is_exact()),
         }

@@ -7,11 +7,11 @@ use mms_results::own::LeftOut;
 use mms_spec::foreign::shown;
 use mms_spec::quantity::Quantity;
 
-use super::Level;
+use super::MeasuredMesh;
 use super::iterative::HUNDRED;
 use super::level::{Errors, Sampling};
 use super::times::Common;
-use crate::table::Orders;
+use crate::table::ExpectedOrders;
 
 /// The compared times.
 pub fn compared(common: &Common) -> String {
@@ -28,8 +28,8 @@ pub fn compared(common: &Common) -> String {
 }
 
 /// The compared meshes.
-pub fn meshes(levels: &[Level]) -> String {
-    let of = |level: &Level| {
+pub fn meshes(levels: &[MeasuredMesh]) -> String {
+    let of = |level: &MeasuredMesh| {
         let (name, covered) = (shown(&level.name), &level.found.covered);
         match covered.cells {
             0 => format!("`{name}` of {} points", covered.points),
@@ -63,7 +63,7 @@ pub fn rings(exact: &Exact) -> Option<String> {
 }
 
 /// The expected order for elements of degree 2 and more, unless the user gave one.
-pub fn order(degree: Option<u32>, orders: &Orders) -> Option<String> {
+pub fn order(degree: Option<u32>, orders: &ExpectedOrders) -> Option<String> {
     let degree = degree.filter(|degree| *degree > 1 && !orders.is_given)?;
     Some(format!(
         "expected order: {}, one more than the degree of the cells; if the time step falls with h, it may be 2, which \
@@ -73,7 +73,7 @@ pub fn order(degree: Option<u32>, orders: &Orders) -> Option<String> {
 }
 
 /// A sentence about all content that was left out, and why.
-pub fn left_out(common: &Common, levels: &[Level], own: &[LeftOut]) -> String {
+pub fn left_out(common: &Common, levels: &[MeasuredMesh], own: &[LeftOut]) -> String {
     let mut all = Vec::new();
     let mut count = |count: usize, one: &str, several: &str| match count {
         0 => {}
@@ -106,12 +106,13 @@ pub fn left_out(common: &Common, levels: &[Level], own: &[LeftOut]) -> String {
 }
 
 /// Warnings about the measured errors.
-pub fn suspicions(levels: &[Level], is_given: bool, warnings: &mut Vec<String>) {
+pub fn suspicions(levels: &[MeasuredMesh], is_input: bool, warnings: &mut Vec<String>) {
     let mut exact = Vec::new();
     for errors in &levels[0].errors {
         let name = errors.quantity.name();
-        let of =
-            |level: &Level| level.errors.iter().find(|it| it.quantity == errors.quantity).cloned();
+        let of = |level: &MeasuredMesh| {
+            level.errors.iter().find(|it| it.quantity == errors.quantity).cloned()
+        };
         let all: Vec<Errors> = levels.iter().filter_map(of).collect();
         if let Some(power) =
             errors.unit.filter(|power| all.iter().all(|it| it.unit == Some(*power)))
@@ -129,7 +130,7 @@ pub fn suspicions(levels: &[Level], is_given: bool, warnings: &mut Vec<String>) 
             ));
         }
     }
-    if is_given {
+    if is_input {
         let names: Vec<_> = levels[0].errors.iter().map(|it| it.quantity.name()).collect();
         warnings.push(format!(
             "the solver was given all values that were compared: {}",
@@ -148,7 +149,11 @@ pub fn suspicions(levels: &[Level], is_given: bool, warnings: &mut Vec<String>) 
 const A_PART: f64 = 0.01;
 
 /// Notes the levels whose errors are at their floor.
-pub fn floors(quantities: &[crate::measured::Quantity], levels: &[Level], notes: &mut Vec<String>) {
+pub fn floors(
+    quantities: &[crate::measured::Quantity],
+    levels: &[MeasuredMesh],
+    notes: &mut Vec<String>,
+) {
     for quantity in quantities {
         let Some(norm) = quantity.norms.iter().find(|norm| norm.name == *"l2" && !norm.is_exact)
         else {

@@ -121,7 +121,8 @@ impl SnapshotErrors<'_> {
             found.ok_or_else(|| anyhow!("{}: no points with a weight", self.snapshot.path))?;
         let norms = [("l1", found.l1), ("l2", found.l2), ("linf", found.linf)];
         let floor = compared.floor;
-        let norms = norms.map(|(name, error)| (name, Measure { error, floor })).to_vec();
+        let norms =
+            norms.map(|(name, error)| (name, Measure { error, rounding_error: floor })).to_vec();
         let dimension = self.mesh.dimension;
         let place = places.get(found.at * dimension..).and_then(|it| it.get(..dimension));
         let place = place.unwrap_or_default().to_vec();
@@ -199,8 +200,9 @@ impl SnapshotErrors<'_> {
         let size = self.mesh.sizes().map_or(1.0, |[shortest, _]| shortest);
         let of_norm =
             |name: &str| if name == "h1" { 2.0 * dimension as f64 * floor / size } else { floor };
-        let norms =
-            norms.into_iter().map(|(name, error)| (name, Measure { error, floor: of_norm(name) }));
+        let norms = norms
+            .into_iter()
+            .map(|(name, error)| (name, Measure { error, rounding_error: of_norm(name) }));
         let norms = norms.collect();
         Ok(self.result(quantity, values, (Sampling::Cells, found.place), norms, compared))
     }
@@ -256,7 +258,7 @@ impl SnapshotErrors<'_> {
         let size = if cancels { cancelled } else { all.largest() };
         let arithmetic = ARITHMETIC * f64::EPSILON * size;
         let floor = values.rounding.max(arithmetic) * (components as f64).sqrt();
-        let is_given = self.is_given(quantity, places)?;
+        let is_given = self.is_input(quantity, places)?;
         Ok(AgainstExact { all, floor: floor + of_places + of_time, of_time, is_given })
     }
 
@@ -278,7 +280,7 @@ impl SnapshotErrors<'_> {
             iterative: None,
             stored: values.stored,
             of_time: [compared.of_time, self.time],
-            is_given: compared.is_given,
+            is_input: compared.is_given,
             largest_at: (place, self.motion.reference.rounding),
         }
     }

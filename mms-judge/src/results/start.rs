@@ -5,9 +5,9 @@
 use mms_exact::Exact;
 use mms_spec::quantity::Quantity;
 
-use super::Level;
+use super::MeasuredMesh;
 use crate::measured::Objection;
-use crate::table::Orders;
+use crate::table::ExpectedOrders;
 
 /// The first displacements and velocities of a solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,8 +55,8 @@ impl Lowered {
     /// # Errors
     /// The errors of [`Exact::values`].
     pub fn new(
-        orders: &Orders,
-        (levels, sizes): (&[Level], &[f64]),
+        orders: &ExpectedOrders,
+        (levels, sizes): (&[MeasuredMesh], &[f64]),
         exact: &mut Exact,
     ) -> anyhow::Result<Self> {
         let degree = levels.iter().filter_map(|it| it.found.degree).min();
@@ -92,13 +92,13 @@ impl Lowered {
     }
 
     /// Whether errors of a quantity need not fall with h.
-    pub fn is_blind_to(&self, quantity: Quantity, orders: &Orders) -> bool {
+    pub fn is_blind_to(&self, quantity: Quantity, orders: &ExpectedOrders) -> bool {
         self.of(quantity).is_some_and(|least| least <= 0.0)
             && orders.given(quantity.name(), quantity.symbol(), "l2").is_none()
     }
 
     /// Explains the expected order of a quantity whose order is lowered.
-    pub fn note(&self, quantity: Quantity, orders: &Orders) -> Option<String> {
+    pub fn note(&self, quantity: Quantity, orders: &ExpectedOrders) -> Option<String> {
         let (least, symbol) = (self.of(quantity)?, quantity.symbol());
         if orders.given(quantity.name(), symbol, "l2").is_some() {
             return None;
@@ -115,7 +115,7 @@ impl Lowered {
 }
 
 /// Whether cells around edges stay out of balance on finer meshes.
-fn are_irregular(levels: &[Level], sizes: &[f64]) -> bool {
+fn are_irregular(levels: &[MeasuredMesh], sizes: &[f64]) -> bool {
     let imbalance = |at: usize| levels[at].found.imbalance.unwrap_or(0.0);
     let by_size = |a: &usize, b: &usize| sizes[*a].total_cmp(&sizes[*b]);
     let all = || 0..levels.len();

@@ -13,7 +13,7 @@ use mms_spec::units::{Dimension, Unit, system};
 ///
 /// # Errors
 /// The column, its unit, and the unit that is expected.
-pub fn hold(snapshot: &Snapshot, meanings: &[Meaning], exact: &Exact) -> anyhow::Result<()> {
+pub fn validate(snapshot: &Snapshot, meanings: &[Meaning], exact: &Exact) -> anyhow::Result<()> {
     let parameters = &exact.input().compiled.model.parameters;
     let of_field: Vec<(&str, Unit)> = parameters
         .iter()

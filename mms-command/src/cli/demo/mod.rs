@@ -21,7 +21,7 @@ use anyhow::{Context as _, bail};
 use clap::Args;
 use mms_codegen::{Options, Selection};
 use mms_convergence::{TOLERANCE, Verdict};
-use mms_diagnosis::answer::{Diagnosis, Finding};
+use mms_diagnosis::answer::{Diagnosis, DiagnosisFinding};
 use mms_diagnosis::changed::Without;
 use mms_diagnosis::follow::Unfollowed;
 use mms_diagnosis::material::Material;
@@ -34,7 +34,7 @@ use mms_files::write::write_own;
 use mms_judge::Judgements;
 use mms_judge::diagnose::{Factors, Reading, falls, find, read};
 use mms_judge::results::{self, Comparison, measure};
-use mms_judge::table::Orders;
+use mms_judge::table::ExpectedOrders;
 use mms_options::field::open;
 use mms_report::table::Table;
 use mms_results::Files;
@@ -162,7 +162,7 @@ impl Demo {
         }
         let is_shown = judged[0].verdict() == Verdict::Pass
             && judged[1].verdict() == Verdict::Fail
-            && diagnosis.finding == Finding::Named;
+            && diagnosis.finding == DiagnosisFinding::Named;
         Ok(if is_shown { Outcome::AsExpected } else { Outcome::Refuted })
     }
 }
@@ -181,7 +181,7 @@ fn judge(tables: &Tables, exact: &mut Exact) -> anyhow::Result<Judgements> {
     };
     let all =
         tables.names().iter().map(|it| reading.find(it, exact)).collect::<anyhow::Result<_>>()?;
-    let orders = Orders::new(&[], TOLERANCE);
+    let orders = ExpectedOrders::new(&[], TOLERANCE);
     let comparison = Comparison {
         sizes: &[],
         times: &[],
@@ -218,8 +218,13 @@ fn diagnose(tables: &Tables, exact: &mut Exact) -> anyhow::Result<Diagnosis> {
     };
     let evidence = read(&all, &reading, exact)?;
     let scene = exact.scene()?;
-    let falls = falls(all, &[], &reading, &Orders::new(&[], TOLERANCE), exact)?;
-    let solver = Solver { without: Without::default(), like: None, falls, is_beside: false };
+    let falls = falls(all, &[], &reading, &ExpectedOrders::new(&[], TOLERANCE), exact)?;
+    let solver = Solver {
+        without: Without::default(),
+        like: None,
+        falls,
+        is_compared_with_right_run: false,
+    };
     let factors = Factors::new(exact);
     let times = |parameter, factor| factors.times(parameter, factor);
     let material = Material { names: factors.names(), times: &times };

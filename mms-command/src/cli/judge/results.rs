@@ -16,7 +16,7 @@ use mms_judge::results::{
     Baseline, Comparison, Explained, Measurement, Over, Reading, Results, Start, measure, room,
     same, weight,
 };
-use mms_judge::table::Orders;
+use mms_judge::table::ExpectedOrders;
 use mms_judge::{Judgements, Unfollowed};
 use mms_options::field::{Variant, find};
 use mms_options::method::{finite, length};
@@ -202,7 +202,7 @@ impl Judge {
         }
     }
 
-    fn measured(&self, exact: &mut Exact, orders: &Orders) -> anyhow::Result<Measurement> {
+    fn measured(&self, exact: &mut Exact, orders: &ExpectedOrders) -> anyhow::Result<Measurement> {
         let options = &self.results;
         let (names, wanted) = self.asked(exact)?;
         let reading = self.reading(&names, &wanted);
