@@ -19,7 +19,7 @@ use mms_runtime::convergence::{ExpectedOrder, TOLERANCE, Verdict};
 use mms_runtime::math::Scalar as _;
 use mms_runtime::scene::{Scene, Solvable};
 use mms_runtime::study::judge;
-use mms_runtime::{Level, Method};
+use mms_runtime::{Method, StudyLevel};
 use mms_spec::Form;
 use mms_spec::StudySpec;
 use mms_spec::quantity::Quantity;
@@ -566,7 +566,7 @@ fn method(study: &StudySpec) -> Method {
     method
 }
 
-fn levels<T: Solvable>(scene: Scene<T>, study: &StudySpec, method: &Method) -> Vec<Level> {
+fn levels<T: Solvable>(scene: Scene<T>, study: &StudySpec, method: &Method) -> Vec<StudyLevel> {
     let cells = if study.cells.is_empty() { scene.default_cells() } else { &study.cells };
     let level = |&cells: &usize| {
         let progress = &mut ();

@@ -3,14 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use mms_exact::gallery;
-use mms_lab::outcome::{Outcome, Quantity, Size};
+use mms_lab::outcome::{Quantity, Size, SolverOutcome};
 use mms_lab::rows::Named as _;
 use mms_options::{Study, arguments};
 use mms_runtime::{FormulationName, IntegratorName, ShapeName, Transfer};
 use mms_spec::Claim;
-use mms_verify::matrix::{Expected, MatrixRow, Word, rows};
-use mms_verify::plan::Plan;
-use mms_verify::verdict::{Verdict, judge};
+use mms_verify::matrix::{ExpectedConvergence, MatrixRow, Word, rows};
+use mms_verify::plan::RunPlan;
+use mms_verify::verdict::{RowVerdict, judge};
 
 fn studies() -> Vec<(MatrixRow, Study)> {
     let rows = rows().unwrap_or_else(|error| panic!("{error:#}"));
@@ -44,7 +44,7 @@ fn whatever_a_result_depends_on_is_in_its_key() {
     ];
     for (number, options) in std::iter::once("").chain(others).enumerate() {
         row.study = format!("{study} {options}");
-        let plan = Plan::new(&[&row], false, "this program").unwrap();
+        let plan = RunPlan::new(&[&row], false, "this program").unwrap();
         keys.extend(plan.jobs.into_iter().map(|job| job.key));
         assert_eq!(keys.len(), 2 * (number + 1), "{options}");
     }
@@ -78,7 +78,7 @@ fn every_integrator_has_a_row_in_time_alone_with_its_formal_order() {
     each_has_a_row(IntegratorName::ALL, |row, study, integrator| {
         row.halvings > 0
             && study.method.integrator == integrator
-            && row.order == Expected::Order(integrator.visit(Formal).into())
+            && row.order == ExpectedConvergence::Order(integrator.visit(Formal).into())
     });
 }
 
@@ -128,7 +128,7 @@ fn quantities_other_than_the_displacement_have_a_row() {
 fn a_run_that_rows_share_is_planned_once_and_the_longest_comes_first() {
     let rows = rows().unwrap();
     let rows: Vec<_> = rows.iter().collect();
-    let [full, quick] = [false, true].map(|quick| Plan::new(&rows, quick, "").unwrap());
+    let [full, quick] = [false, true].map(|quick| RunPlan::new(&rows, quick, "").unwrap());
     for plan in [&full, &quick] {
         assert!(plan.jobs.windows(2).all(|pair| pair[0].work >= pair[1].work));
         let mut commands: Vec<_> = plan.jobs.iter().map(|job| &job.key).collect();
@@ -152,7 +152,7 @@ fn arguments_are_cut_at_blanks_but_between_apostrophes() {
 }
 
 /// A row with an expected order.
-fn row(order: Expected) -> MatrixRow {
+fn row(order: ExpectedConvergence) -> MatrixRow {
     MatrixRow {
         name: "some/mode".into(),
         study: "bar_1d --cells 8,16,32".into(),
@@ -163,8 +163,8 @@ fn row(order: Expected) -> MatrixRow {
         linf: None,
         tolerance: 0.15,
         constant: match order {
-            Expected::Order(_) => Some(1024.0),
-            Expected::Word(_) => None,
+            ExpectedConvergence::Order(_) => Some(1024.0),
+            ExpectedConvergence::Word(_) => None,
         },
         theory: "known".into(),
         catches: Vec::new(),
@@ -172,48 +172,48 @@ fn row(order: Expected) -> MatrixRow {
     }
 }
 
-fn finished(level: usize, errors: [f64; 3]) -> Outcome {
+fn finished(level: usize, errors: [f64; 3]) -> SolverOutcome {
     let cell_size = 1.0 / f64::from(8 << level);
     let run = Size { cell_size, time_step: 0.1, steps: 10, particles: 16, seconds: 0.0 };
-    Outcome::Finished { run, errors, mean_velocity: vec![1.0] }
+    SolverOutcome::Finished { run, errors, mean_velocity: vec![1.0] }
 }
 
 /// The verdict for these errors on 8, 16, ... cells, the same in all norms.
-fn verdict(order: Expected, errors: &[f64]) -> Verdict {
+fn verdict(order: ExpectedConvergence, errors: &[f64]) -> RowVerdict {
     let levels = errors.iter().enumerate().map(|(level, &e)| finished(level, [e; 3]));
     judge(&row(order), &levels.collect::<Vec<_>>()).verdict
 }
 
-const SECOND: Expected = Expected::Order(2.0);
-const NONE: Expected = Expected::Word(Word::None);
+const SECOND: ExpectedConvergence = ExpectedConvergence::Order(2.0);
+const NONE: ExpectedConvergence = ExpectedConvergence::Word(Word::None);
 
 /// Without a level, theory is not confirmed.
 #[test]
 fn without_a_level_nothing_passes() {
-    for order in [SECOND, Expected::Word(Word::Exact)] {
-        assert_eq!(verdict(order, &[]), Verdict::NotAsymptotic);
+    for order in [SECOND, ExpectedConvergence::Word(Word::Exact)] {
+        assert_eq!(verdict(order, &[]), RowVerdict::NotAsymptotic);
     }
     assert!(!judge(&row(NONE), &[]).as_expected());
 }
-const EXACT: Expected = Expected::Word(Word::Exact);
+const EXACT: ExpectedConvergence = ExpectedConvergence::Word(Word::Exact);
 
 #[test]
 fn verdicts_on_known_sequences() {
     // l2 at 32 cells is 1, so that the constant is 32^2.
-    assert_eq!(verdict(SECOND, &[16.0, 4.0, 1.0]), Verdict::Pass);
-    assert_eq!(verdict(SECOND, &[4.0, 2.0, 1.0]), Verdict::Fail);
-    assert_eq!(verdict(SECOND, &[1.0, 1.0, 1.0]), Verdict::DoesNotConverge);
-    assert_eq!(verdict(SECOND, &[1.0, 4.0, 16.0]), Verdict::DoesNotConverge);
-    assert_eq!(verdict(SECOND, &[32.0, 4.0, 1.0]), Verdict::NotAsymptotic);
-    assert_eq!(verdict(SECOND, &[64.0, 8.0, 1.0]), Verdict::NotAsymptotic);
-    assert_eq!(verdict(SECOND, &[1.0]), Verdict::NotAsymptotic);
-    assert_eq!(verdict(SECOND, &[]), Verdict::NotAsymptotic);
-    assert_eq!(verdict(SECOND, &[0.0, 0.0, 0.0]), Verdict::NotAsymptotic);
-    assert_eq!(verdict(NONE, &[1.0, 1.1, 1.2]), Verdict::DoesNotConverge);
-    assert_eq!(verdict(NONE, &[4.0, 2.0, 1.0]), Verdict::Fail);
-    assert_eq!(verdict(EXACT, &[1e-15, 2e-15, 0.0]), Verdict::Pass);
-    assert_eq!(verdict(EXACT, &[1e-15, 1e-9, 1e-15]), Verdict::Fail);
-    assert_eq!(verdict(EXACT, &[1e-15, f64::NAN, 1e-15]), Verdict::Fail);
+    assert_eq!(verdict(SECOND, &[16.0, 4.0, 1.0]), RowVerdict::Pass);
+    assert_eq!(verdict(SECOND, &[4.0, 2.0, 1.0]), RowVerdict::Fail);
+    assert_eq!(verdict(SECOND, &[1.0, 1.0, 1.0]), RowVerdict::DoesNotConverge);
+    assert_eq!(verdict(SECOND, &[1.0, 4.0, 16.0]), RowVerdict::DoesNotConverge);
+    assert_eq!(verdict(SECOND, &[32.0, 4.0, 1.0]), RowVerdict::NotAsymptotic);
+    assert_eq!(verdict(SECOND, &[64.0, 8.0, 1.0]), RowVerdict::NotAsymptotic);
+    assert_eq!(verdict(SECOND, &[1.0]), RowVerdict::NotAsymptotic);
+    assert_eq!(verdict(SECOND, &[]), RowVerdict::NotAsymptotic);
+    assert_eq!(verdict(SECOND, &[0.0, 0.0, 0.0]), RowVerdict::NotAsymptotic);
+    assert_eq!(verdict(NONE, &[1.0, 1.1, 1.2]), RowVerdict::DoesNotConverge);
+    assert_eq!(verdict(NONE, &[4.0, 2.0, 1.0]), RowVerdict::Fail);
+    assert_eq!(verdict(EXACT, &[1e-15, 2e-15, 0.0]), RowVerdict::Pass);
+    assert_eq!(verdict(EXACT, &[1e-15, 1e-9, 1e-15]), RowVerdict::Fail);
+    assert_eq!(verdict(EXACT, &[1e-15, f64::NAN, 1e-15]), RowVerdict::Fail);
 }
 
 /// A defect may keep the order and change the constant.
@@ -224,9 +224,9 @@ fn the_right_order_with_another_constant_fails() {
         let levels = levels.into_iter().enumerate().map(|(level, e)| finished(level, [e; 3]));
         judge(&row(SECOND), &levels.collect::<Vec<_>>())
     };
-    assert_eq!(judgement(1.005).verdict, Verdict::Pass);
+    assert_eq!(judgement(1.005).verdict, RowVerdict::Pass);
     let other = judgement(1.02);
-    assert_eq!(other.verdict, Verdict::Fail);
+    assert_eq!(other.verdict, RowVerdict::Fail);
     assert_eq!(other.reason.as_deref(), Some("error constant 1.0445e3, not 1.0240e3"));
     assert_eq!(other.constant, Some(1024.0 * 1.02));
 }
@@ -236,18 +236,20 @@ fn the_largest_error_counts_too() {
     let levels = [[16.0, 16.0, 16.0], [4.0, 4.0, 4.0], [1.0, 1.0, 2.0]];
     let levels = levels.into_iter().enumerate().map(|(level, e)| finished(level, e));
     let judgement = judge(&row(SECOND), &levels.collect::<Vec<_>>());
-    assert_eq!((judgement.verdict, judgement.observed_order()), (Verdict::Fail, Some(2.0)));
+    assert_eq!((judgement.verdict, judgement.observed_order()), (RowVerdict::Fail, Some(2.0)));
 }
 
 /// Some rows expect a stop; a run that was never started proves nothing.
 #[test]
 fn a_run_that_stopped_does_not_converge_and_one_that_was_refused_fails() {
     let stopped = match finished(2, [1.0; 3]) {
-        Outcome::Finished { run, .. } => Outcome::Stopped { run, failure: "inverted".into() },
+        SolverOutcome::Finished { run, .. } => {
+            SolverOutcome::Stopped { run, failure: "inverted".into() }
+        }
         other => other,
     };
-    let refused = Outcome::Refused { reason: "between nodes".into() };
-    for (last, verdict) in [(stopped, Verdict::DoesNotConverge), (refused, Verdict::Fail)] {
+    let refused = SolverOutcome::Refused { reason: "between nodes".into() };
+    for (last, verdict) in [(stopped, RowVerdict::DoesNotConverge), (refused, RowVerdict::Fail)] {
         let levels = [finished(0, [16.0; 3]), finished(1, [4.0; 3]), last];
         for order in [SECOND, NONE] {
             assert_eq!(judge(&row(order), &levels).verdict, verdict);
@@ -260,23 +262,23 @@ fn a_run_that_stopped_does_not_converge_and_one_that_was_refused_fails() {
 fn an_order_in_time_is_that_over_time_steps() {
     let row = MatrixRow { halvings: 2, constant: Some(100.0), ..row(SECOND) };
     let levels = [16.0, 4.0, 1.0].map(|e| match finished(0, [e; 3]) {
-        Outcome::Finished { run, errors, mean_velocity } => {
+        SolverOutcome::Finished { run, errors, mean_velocity } => {
             let run = Size { time_step: 0.1 * f64::sqrt(e), ..run };
-            Outcome::Finished { run, errors, mean_velocity }
+            SolverOutcome::Finished { run, errors, mean_velocity }
         }
         other => other,
     });
     let judgement = judge(&row, &levels);
-    assert_eq!((judgement.verdict, judgement.observed_order()), (Verdict::Pass, Some(2.0)));
+    assert_eq!((judgement.verdict, judgement.observed_order()), (RowVerdict::Pass, Some(2.0)));
 }
 
 #[test]
 fn momentum_is_held_to_what_it_is() {
     let row = |velocity| MatrixRow { quantity: Quantity::MeanVelocity(velocity), ..row(EXACT) };
     let levels = [finished(0, [1.0; 3]), finished(1, [1.0; 3])];
-    assert_eq!(judge(&row(vec![1.0]), &levels).verdict, Verdict::Pass);
-    assert_eq!(judge(&row(vec![1.1]), &levels).verdict, Verdict::Fail);
-    assert_eq!(judge(&row(vec![1.0, 0.0]), &levels).verdict, Verdict::Fail);
+    assert_eq!(judge(&row(vec![1.0]), &levels).verdict, RowVerdict::Pass);
+    assert_eq!(judge(&row(vec![1.1]), &levels).verdict, RowVerdict::Fail);
+    assert_eq!(judge(&row(vec![1.0, 0.0]), &levels).verdict, RowVerdict::Fail);
 }
 
 /// The command observes which rows catch a defect; this test checks the rows that claim to catch one.

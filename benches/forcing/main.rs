@@ -228,7 +228,7 @@ fn print(rows: &[serde_json::Value]) {
         "median eps",
         "max eps",
     ];
-    let mut table = mms_report::table::Table::new("forcing", header);
+    let mut table = mms_report::table::TextTable::new("forcing", header);
     for row in rows {
         let text = |key: &str| row[key].as_str().unwrap_or_default().to_string();
         let reached = match (row["floor_ns"].as_f64(), row["ns_per_point"].as_f64()) {

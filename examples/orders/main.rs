@@ -77,7 +77,7 @@ fn line(row: &Row) -> Result<String, Box<dyn Error>> {
     }
     let judgement = judge(&levels, ExpectedOrder::new(2.0, TOLERANCE.max(row.tolerance)));
     let finest = levels.last().and_then(|level| level.errors.as_ref().ok());
-    let observed = |norm: fn(&mms_runtime::study::Orders) -> Option<f64>| {
+    let observed = |norm: fn(&mms_runtime::study::ObservedOrders) -> Option<f64>| {
         words(levels.windows(2).map(|pair| norm(&orders(&pair[0], &pair[1]))))
     };
     let numbers: Vec<String> = row.levels.iter().map(usize::to_string).collect();

@@ -11,11 +11,11 @@ pub const BLOCK: usize = <f64 as Blockwise>::BLOCK;
 
 /// The data for the evaluation of each quantity, reused from call to call.
 #[derive(Debug)]
-pub struct Evaluator(Vec<(Quantity, Asked)>);
+pub struct Evaluator(Vec<(Quantity, QuantityCache)>);
 
 /// The data for one quantity.
 #[derive(Debug, Default)]
-struct Asked {
+struct QuantityCache {
     plan: OnceLock<Arc<BlockPlan>>,
     /// The data of calls that have ended; as many as there were concurrent calls.
     idle: Mutex<Vec<Ready>>,
@@ -35,7 +35,7 @@ pub struct Ready {
 impl Evaluator {
     /// An evaluator without data, for these quantities.
     pub fn new(quantities: impl Iterator<Item = Quantity>) -> Self {
-        Evaluator(quantities.map(|quantity| (quantity, Asked::default())).collect())
+        Evaluator(quantities.map(|quantity| (quantity, QuantityCache::default())).collect())
     }
 
     /// Calls `work` with the data for an evaluation of a quantity with these parameters. If the parameters differ from the

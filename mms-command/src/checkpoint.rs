@@ -78,13 +78,13 @@ pub fn write(path: &Path, head: &Head, checkpoint: &dyn Checkpoint) -> anyhow::R
 
 /// A checkpoint that is whole.
 #[derive(Debug)]
-pub struct Found {
+pub struct StoredCheckpoint {
     /// The head of the checkpoint.
     pub head: Head,
     state: BufReader<std::io::Take<File>>,
 }
 
-impl Found {
+impl StoredCheckpoint {
     /// Opens a file, and reads all of it once, unless it has more than `most` bytes.
     ///
     /// # Errors
@@ -123,7 +123,7 @@ impl Found {
         let head = head_of(&line).map_err(|what| anyhow::anyhow!(damaged(&what)))?;
         file.seek(SeekFrom::Start(line.len() as u64)).with_context(cannot)?;
         let state = BufReader::new(file.take(content - line.len() as u64));
-        Ok(Found { head, state })
+        Ok(StoredCheckpoint { head, state })
     }
 
     /// The state.
@@ -148,13 +148,13 @@ fn head_of(line: &[u8]) -> Result<Head, String> {
 }
 
 /// The place and the frequency of checkpoints.
-pub struct Keeper {
+pub struct CheckpointWriter {
     path: PathBuf,
     every: usize,
     head: Head,
 }
 
-impl Keeper {
+impl CheckpointWriter {
     /// A keeper that writes after every `every` steps, to a file in an existing folder.
     ///
     /// # Errors

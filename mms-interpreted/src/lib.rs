@@ -36,17 +36,17 @@ use mms_symbolic::sorted::SortedMap;
 pub use points::AtPoints;
 
 /// The number of outputs that a solver uses.
-const ASKED: usize = 9;
+const OUTPUTS: usize = 9;
 
 /// A field evaluated by the interpreter, for one set of parameters.
 struct Interpreted<T: Blockwise> {
     compiled: Arc<Compiled>,
     parameters: Vec<T>,
-    asked: [Asked<T>; ASKED],
+    outputs: [SolverOutput<T>; OUTPUTS],
 }
 
 /// An output that a solver uses.
-struct Asked<T: Blockwise> {
+struct SolverOutput<T: Blockwise> {
     output: Output,
     mode: BlockMode,
     /// The prepared program, made at its first use.
@@ -56,7 +56,7 @@ struct Asked<T: Blockwise> {
 
 /// The outputs, each with the same bits as compiled code: there the first three are loops over many points, and the others are
 /// computed point by point.
-fn asked<T: Blockwise>() -> [Asked<T>; ASKED] {
+fn solver_outputs<T: Blockwise>() -> [SolverOutput<T>; OUTPUTS] {
     let (fused, portable) = (BlockMode::fused(), BlockMode::portable());
     [
         (Output::Quantity(Quantity::Displacement), fused),
@@ -69,7 +69,7 @@ fn asked<T: Blockwise>() -> [Asked<T>; ASKED] {
         (Output::Response(Response::WaveSpeed), portable),
         (Output::Response(Response::StrainEnergy), portable),
     ]
-    .map(|(output, mode)| Asked {
+    .map(|(output, mode)| SolverOutput {
         output,
         mode,
         prepared: OnceLock::new(),
@@ -134,7 +134,7 @@ fn interpreted<T: Real + Blockwise>(
 ) -> Result<Scene<T>, Swirling> {
     let parameters = compiled.parameters(set);
     let space = compiled.field.space;
-    let field = Interpreted { compiled, parameters, asked: asked() };
+    let field = Interpreted { compiled, parameters, outputs: solver_outputs() };
     match space {
         Space::Axisymmetric { swirl: true } => Err(Swirling),
         Space::Axisymmetric { swirl: false } => Ok(Scene::Plane(Box::new(field))),
@@ -164,7 +164,7 @@ impl<T: Real + Blockwise> Interpreted<T> {
         write_inputs: &mut dyn FnMut(usize, &mut Inputs<'_, T>),
         read_outputs: &mut dyn FnMut(usize, &Outputs<'_, T>),
     ) {
-        let asked = self.asked.iter().find(|asked| asked.output == output);
+        let asked = self.outputs.iter().find(|asked| asked.output == output);
         let asked = asked.expect("every output that is evaluated is listed");
         let prepared = asked.prepared.get_or_init(|| {
             let plan = BlockPlan::new(&self.compiled.program, &[output], Output::is_quantity);

@@ -1,7 +1,7 @@
 //! Studies of the solver of this project.
 //!
 //! [`tradeoff`] searches methods for the least error at a cost, with runs that [`trial`] makes; [`extremes`] checks the solver
-//! against its bounds at extreme fields; [`workbench`] compiles and times generated code; [`pictures`] decides which mistakes a
+//! against its bounds at extreme fields; [`workbench`] compiles and times generated code; [`plausibility`] decides which mistakes a
 //! person would notice in pictures of a run. [`outcome`] is the result of a run; [`rows`] reads the TOML tables that list runs.
 
 #![warn(clippy::disallowed_methods)]
@@ -9,7 +9,7 @@
 
 pub mod extremes;
 pub mod outcome;
-pub mod pictures;
+pub mod plausibility;
 pub mod rows;
 pub mod tradeoff;
 pub mod trial;

@@ -1,7 +1,7 @@
 //! The outcome of a run, and the inputs that it depends on.
 
 use mms_runtime::study::Details;
-use mms_runtime::{Errors, Level};
+use mms_runtime::{Errors, StudyLevel};
 use serde::{Deserialize, Serialize};
 
 /// Everything that a result depends on.
@@ -56,7 +56,7 @@ pub type Norms = [f64; 3];
 /// The outcome of a run, as it is stored.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Outcome {
+pub enum SolverOutcome {
     /// The run reached its end.
     Finished {
         /// The size of the run.
@@ -96,19 +96,19 @@ pub struct Size {
     pub seconds: f64,
 }
 
-impl Outcome {
+impl SolverOutcome {
     /// The size of a run that was started.
     pub fn run(&self) -> Option<&Size> {
         match self {
-            Outcome::Finished { run, .. } | Outcome::Stopped { run, .. } => Some(run),
-            Outcome::Refused { .. } => None,
+            SolverOutcome::Finished { run, .. } | SolverOutcome::Stopped { run, .. } => Some(run),
+            SolverOutcome::Refused { .. } => None,
         }
     }
 
     /// l1, l2 and linf of the quantity that was measured, if it reached its end.
     pub fn norms(&self) -> Option<Norms> {
         match self {
-            Outcome::Finished { errors, .. } => Some(*errors),
+            SolverOutcome::Finished { errors, .. } => Some(*errors),
             _ => None,
         }
     }
@@ -116,21 +116,25 @@ impl Outcome {
     /// The reason why there are no errors.
     pub fn failure(&self) -> Option<String> {
         match self {
-            Outcome::Finished { .. } => None,
-            Outcome::Stopped { failure, .. } => Some(failure.clone()),
-            Outcome::Refused { reason } => Some(format!("not started: {reason}")),
+            SolverOutcome::Finished { .. } => None,
+            SolverOutcome::Stopped { failure, .. } => Some(failure.clone()),
+            SolverOutcome::Refused { reason } => Some(format!("not started: {reason}")),
         }
     }
 }
 
-impl AsRef<Outcome> for Outcome {
-    fn as_ref(&self) -> &Outcome {
+impl AsRef<SolverOutcome> for SolverOutcome {
+    fn as_ref(&self) -> &SolverOutcome {
         self
     }
 }
 
 /// The outcome of a run that was started, with the errors of a quantity.
-pub fn outcome(level: &Level, details: Option<&Details>, quantity: &Quantity) -> Outcome {
+pub fn outcome(
+    level: &StudyLevel,
+    details: Option<&Details>,
+    quantity: &Quantity,
+) -> SolverOutcome {
     let run = Size {
         cell_size: level.cell_size,
         time_step: level.time_step,
@@ -140,7 +144,7 @@ pub fn outcome(level: &Level, details: Option<&Details>, quantity: &Quantity) ->
     };
     let Some(Details { largest, diagnostics: state, .. }) = details else {
         let failure = level.errors.as_ref().err().map(ToString::to_string);
-        return Outcome::Stopped { run, failure: failure.unwrap_or_default() };
+        return SolverOutcome::Stopped { run, failure: failure.unwrap_or_default() };
     };
     let Errors { l1, l2, linf } = match quantity {
         Quantity::Displacement | Quantity::MeanVelocity(_) => largest.displacement,
@@ -149,5 +153,5 @@ pub fn outcome(level: &Level, details: Option<&Details>, quantity: &Quantity) ->
         Quantity::FirstPiolaKirchhoff => largest.first_piola_kirchhoff,
     };
     let mean_velocity = state.momentum.iter().map(|p| p / state.mass).collect();
-    Outcome::Finished { run, errors: [l1, l2, linf], mean_velocity }
+    SolverOutcome::Finished { run, errors: [l1, l2, linf], mean_velocity }
 }

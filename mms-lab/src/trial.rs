@@ -19,14 +19,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::outcome::Key;
 use crate::outcome::Quantity;
-use crate::outcome::{Outcome, outcome};
+use crate::outcome::{SolverOutcome, outcome};
 
 /// The result of a run, and its memory.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Trial {
     /// Errors of the displacement, or the reason why there are none.
-    pub outcome: Outcome,
+    pub outcome: SolverOutcome,
     /// The largest memory in use at a time, in bytes.
     pub memory: usize,
 }
@@ -150,7 +150,7 @@ fn measure<T: Solvable>(
     let mut best = once(scene, method, cells, observer);
     let mut spent = 0.0;
     for _ in 0..REPEATS {
-        let Outcome::Finished { run, .. } = &mut best.outcome else { break };
+        let SolverOutcome::Finished { run, .. } = &mut best.outcome else { break };
         spent += run.seconds;
         if spent > SHORT {
             break;
@@ -200,7 +200,7 @@ fn once<T: Solvable>(
     let run = scene.run(method, cells, Watch::Displacement, &mut apart);
     let memory = apart.peak.max(PeakAlloc.peak_usage()).saturating_sub(before);
     let outcome = match run {
-        Err(refusal) => Outcome::Refused { reason: refusal.to_string() },
+        Err(refusal) => SolverOutcome::Refused { reason: refusal.to_string() },
         Ok(run) => outcome(&run.level, run.details.as_ref(), &Quantity::Displacement),
     };
     Trial { outcome, memory }

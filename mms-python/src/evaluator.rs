@@ -87,11 +87,11 @@ impl<'a, T> Places<'a, T> {
 
 /// A number that is not finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Odd {
+pub struct NonFinite {
     /// The position of its point.
     pub index: usize,
     /// Whether the number is an input, and not a result.
-    pub is_given: bool,
+    pub is_input: bool,
 }
 
 impl<T: Precision> Evaluator<T> {
@@ -108,10 +108,10 @@ impl<T: Precision> Evaluator<T> {
     }
 
     /// Fills `values`; the error is the place of a number that is not finite.
-    pub fn fill(&self, time: T, places: Places<'_, T>, values: &mut [T]) -> Result<(), Odd> {
+    pub fn fill(&self, time: T, places: Places<'_, T>, values: &mut [T]) -> Result<(), NonFinite> {
         let count = places.count;
         if count < MANY {
-            return self.pool.with(|scratch| self.share(scratch, time, places, values));
+            return self.pool.with(|scratch| self.evaluate_chunk(scratch, time, places, values));
         }
         let threads = thread::available_parallelism().map_or(1, usize::from);
         let each = count.div_ceil(threads).next_multiple_of(SHARE);
@@ -121,13 +121,15 @@ impl<T: Precision> Evaluator<T> {
                 let (own, others) = places.split_at(each);
                 let (scratch, rest) = values.split_at_mut(own.count * self.components);
                 (places, values) = (others, rest);
-                let work = move || self.pool.with(|it| self.share(it, time, own, scratch));
+                let work = move || self.pool.with(|it| self.evaluate_chunk(it, time, own, scratch));
                 spawned.push(scope.spawn(work));
             }
             let found = spawned.into_iter().enumerate().try_for_each(|(at, thread)| {
                 match thread.join().expect("a panic is passed on") {
                     Ok(()) => ControlFlow::Continue(()),
-                    Err(odd) => ControlFlow::Break(Odd { index: at * each + odd.index, ..odd }),
+                    Err(odd) => {
+                        ControlFlow::Break(NonFinite { index: at * each + odd.index, ..odd })
+                    }
                 }
             });
             found.break_value().map_or(Ok(()), Err)
@@ -135,13 +137,13 @@ impl<T: Precision> Evaluator<T> {
     }
 
     /// Evaluates on this thread.
-    fn share(
+    fn evaluate_chunk(
         &self,
         scratch: &mut Scratch<T>,
         time: T,
         mut places: Places<'_, T>,
         mut values: &mut [T],
-    ) -> Result<(), Odd> {
+    ) -> Result<(), NonFinite> {
         let mut start = 0;
         while places.count > 0 {
             let (own, others) = places.split_at(SHARE);
@@ -149,13 +151,13 @@ impl<T: Precision> Evaluator<T> {
             let given = [(own.points, own.dimension), (own.gradients, own.rows * own.rows)];
             for (numbers, each) in given {
                 if let Some(at) = first_odd(numbers) {
-                    return Err(Odd { index: start + at / each, is_given: true });
+                    return Err(NonFinite { index: start + at / each, is_input: true });
                 }
             }
             let (found, rest) = values.split_at_mut(count * self.components);
             self.evaluate(scratch, time, own, found);
             if let Some(at) = first_odd(found) {
-                return Err(Odd { index: start + at / self.components, is_given: false });
+                return Err(NonFinite { index: start + at / self.components, is_input: false });
             }
             (places, values, start) = (others, rest, start + count);
         }
@@ -195,9 +197,9 @@ pub struct KeptPoints<T: Blockwise>(Vec<PointCache<T>>);
 impl<T: Precision> Evaluator<T> {
     /// Stores the values that X determines at points, for [`fill_kept`](Self::fill_kept); the error is the place of a
     /// coordinate that is not finite.
-    pub fn keep(&self, dimension: usize, points: &[T]) -> Result<KeptPoints<T>, Odd> {
+    pub fn keep(&self, dimension: usize, points: &[T]) -> Result<KeptPoints<T>, NonFinite> {
         if let Some(at) = first_odd(points) {
-            return Err(Odd { index: at / dimension, is_given: true });
+            return Err(NonFinite { index: at / dimension, is_input: true });
         }
         let shares = points.chunks(SHARE * dimension);
         let keep = |scratch: &mut Scratch<T>| {
@@ -214,7 +216,7 @@ impl<T: Precision> Evaluator<T> {
         (dimension, points, kept): (usize, &[T], &KeptPoints<T>),
         first: usize,
         values: &mut [T],
-    ) -> Result<(), Odd> {
+    ) -> Result<(), NonFinite> {
         let count = values.len() / self.components.max(1);
         let threads = match count < MANY {
             true => 1,
@@ -231,7 +233,7 @@ impl<T: Precision> Evaluator<T> {
                     self.prepared.at_kept(scratch, time, of, values);
                     if let Some(at) = first_odd(values) {
                         let index = start + at / self.components;
-                        return Err(Odd { index, is_given: false });
+                        return Err(NonFinite { index, is_input: false });
                     }
                 }
                 Ok(())

@@ -10,8 +10,8 @@ use numpy::{PyArrayMethods, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 
 use crate::array::{Numbers, STRETCH, scratch};
-use crate::evaluator::{KeptPoints, Odd};
-use crate::opened::{Asked, Evaluated, Opened, Points};
+use crate::evaluator::{KeptPoints, NonFinite};
+use crate::opened::{Evaluated, Opened, OutputRequest, Points};
 
 /// Points, and the values that are kept there.
 pub struct Stay {
@@ -54,14 +54,14 @@ impl Stay {
 fn filled<'py, T: Evaluated + Number + Blockwise>(
     py: Python<'py>,
     opened: &Opened,
-    asked: &Asked<'_>,
+    asked: &OutputRequest<'_>,
     (points, x): (&Points<'py>, &PyReadonlyArrayDyn<'py, T>),
     known: &Known<T>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let (dimension, layout) = (opened.dimension(), &points.layout);
     let evaluator = T::of(opened).evaluator(&opened.input, asked.output)?;
     let x = x.as_slice()?;
-    let odd = |odd: Odd| opened.odd(asked, layout, odd);
+    let odd = |odd: NonFinite| opened.odd(asked, layout, odd);
     let lock = || known.lock().unwrap_or_else(PoisonError::into_inner);
     let find = || lock().iter().find(|(it, _)| *it == asked.output).map(|(_, it)| it.clone());
     let kept = match find() {

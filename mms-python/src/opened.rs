@@ -21,7 +21,7 @@ use numpy::{PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
 use crate::array::{Layout, Numbers, STRETCH, scratch, stretch};
-use crate::evaluator::{Evaluator, Odd, Places, Precision};
+use crate::evaluator::{Evaluator, NonFinite, Places, Precision};
 use crate::mistake::{failure, mistake};
 
 /// Fewer points than this are evaluated while the GIL is held.
@@ -89,7 +89,7 @@ impl<'py> Points<'py> {
 }
 
 /// A request: an output, the name and the shape of its result, and the time.
-pub struct Asked<'a> {
+pub struct OutputRequest<'a> {
     /// The output.
     pub output: Output,
     /// The name.
@@ -250,12 +250,12 @@ impl Opened {
         &self,
         quantity: Quantity,
         t: Option<f64>,
-        work: impl FnOnce(&Asked<'_>) -> PyResult<R>,
+        work: impl FnOnce(&OutputRequest<'_>) -> PyResult<R>,
     ) -> PyResult<R> {
         self.compiled().validate_offered(quantity).map_err(mistake)?;
         let own = self.axes(quantity.shape());
         let (output, time) = (Output::Quantity(quantity), self.time(t)?);
-        work(&Asked { output, name: quantity.name(), own: &own, time })
+        work(&OutputRequest { output, name: quantity.name(), own: &own, time })
     }
 
     /// The first Piola-Kirchhoff stress of the material at displacement gradients and, if the material depends on X or t, at
@@ -278,7 +278,7 @@ impl Opened {
         let of = format!("displacement gradients of `{}`", self.input.name.shown());
         let numbers = Numbers::of("H", gradients)?;
         let layout = Layout::of("H", numbers.shape(), &own, &of)?;
-        let asked = Asked { output, name: "P", own: &own, time };
+        let asked = OutputRequest { output, name: "P", own: &own, time };
         let x = x.map(|x| Points::given(x, self)).transpose()?;
         if x.as_ref().is_some_and(|x| x.layout.leading != layout.leading) {
             return Err(mistake("`X` and `H` are of different points: expected one X for each H"));
@@ -304,7 +304,7 @@ impl Opened {
     fn filled<'py, T: Evaluated + Number>(
         &self,
         py: Python<'py>,
-        asked: &Asked<'_>,
+        asked: &OutputRequest<'_>,
         at: At<'_, 'py, T>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (dimension, rows) = (self.dimension(), self.compiled().field.space.rows());
@@ -343,8 +343,9 @@ impl Opened {
             };
             // Releasing and acquiring the GIL takes as long as a few points.
             let filled = if count < FEW { fill() } else { py.detach(fill) };
-            filled
-                .map_err(|odd| self.odd(asked, layout, Odd { index: start + odd.index, ..odd }))?;
+            filled.map_err(|odd| {
+                self.odd(asked, layout, NonFinite { index: start + odd.index, ..odd })
+            })?;
             if ends[1] < count {
                 py.check_signals()?;
             }
@@ -354,9 +355,9 @@ impl Opened {
     }
 
     /// The exception for an input or a result that is not finite.
-    pub fn odd(&self, asked: &Asked<'_>, layout: &Layout, odd: Odd) -> PyErr {
+    pub fn odd(&self, asked: &OutputRequest<'_>, layout: &Layout, odd: NonFinite) -> PyErr {
         let place = layout.place(odd.index);
-        mistake(match odd.is_given {
+        mistake(match odd.is_input {
             true => format!(
                 "the point at {place} has a number that is not finite: expected finite numbers"
             ),

@@ -20,7 +20,7 @@ use super::junit;
 use super::page::Section as _;
 use super::plot::Figure;
 use super::shown::Shown;
-use super::table::Table;
+use super::table::TextTable;
 use super::text::next;
 
 /// The text of a campaign.
@@ -46,10 +46,10 @@ impl View<'_> {
     }
 
     /// A row for each study.
-    fn matrix(&self) -> Table {
+    fn matrix(&self) -> TextTable {
         let header = ["study", "field", "expected", "observed", "of", "verdict"];
         let caption = format!("studies of {}", shown(&self.0.plan.campaign.solver.name));
-        let mut table = Table::new(caption, header).right_from(0);
+        let mut table = TextTable::new(caption, header).right_from(0);
         for judged in self.0.studies.iter().filter(|it| it.planned.is_whole()) {
             table.add_row(row(judged));
         }
@@ -163,7 +163,7 @@ impl Shown for View<'_> {
         Ok(junit::document(self.0))
     }
 
-    fn tables(&self) -> Vec<Table> {
+    fn tables(&self) -> Vec<TextTable> {
         vec![self.matrix()]
     }
 

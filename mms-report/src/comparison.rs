@@ -13,7 +13,7 @@ use super::page::Section as _;
 use super::page::method::written;
 use super::plot::Figure;
 use crate::shown::Shown;
-use crate::table::{FITTED, Table};
+use crate::table::{FITTED, TextTable};
 use crate::text::next;
 
 /// The document of one study, or of several methods.
@@ -74,7 +74,7 @@ impl Comparison {
     }
 
     /// l2 of each method on each level, or in time its difference from the next level.
-    fn errors(&self, names: Vec<String>) -> Table {
+    fn errors(&self, names: Vec<String>) -> TextTable {
         let first = &self.studies[0];
         let ends = [FITTED, "constant", "verdict"].map(str::to_owned);
         let header = ["l2".to_owned()].into_iter().chain(first.names_of_levels()).chain(ends);
@@ -84,7 +84,7 @@ impl Comparison {
         let count = format!("{}: l2 of {} methods", first.field.shown(), self.studies.len());
         let caption = [count, shared].into_iter().filter(|it| !it.is_empty());
         let caption = caption.collect::<Vec<_>>().join(", ");
-        let mut table = Table::new(caption, header).right_from(1);
+        let mut table = TextTable::new(caption, header).right_from(1);
         for (name, study) in names.into_iter().zip(&self.studies) {
             let mut cells = vec![name];
             cells.extend(study.errors_of_levels());
@@ -149,7 +149,7 @@ impl Shown for Comparison {
         }
     }
 
-    fn tables(&self) -> Vec<Table> {
+    fn tables(&self) -> Vec<TextTable> {
         if let [alone] = self.studies.as_slice() {
             return alone.tables();
         }

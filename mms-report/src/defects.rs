@@ -2,12 +2,12 @@
 
 use mms_documents::provenance::Provenance;
 use mms_documents::verify::{ShownDefect, ShownRow, VerifyDefects};
-use mms_lab::pictures::{Check, Visible};
-use mms_verify::defects::{Defect, Shown as RowUnder};
+use mms_lab::plausibility::{Check, Objections};
+use mms_verify::defects::{Defect, RowResult as RowUnder};
 use mms_verify::matrix::MatrixRow;
 
 use crate::shown::Shown;
-use crate::table::Table;
+use crate::table::TextTable;
 
 /// The largest number of rows that catch a rare defect; each row has to catch a rare one, or be a witness.
 const FEW: usize = 6;
@@ -19,7 +19,7 @@ pub struct Showing<'a> {
     /// The rows, with it.
     pub rows: Vec<RowUnder<'a>>,
     /// The objections of plausibility checks to these runs, of checks that do not object to right runs as well.
-    pub looks: Visible,
+    pub objections: Objections,
 }
 
 impl<'a> Showing<'a> {
@@ -41,7 +41,7 @@ impl<'a> Showing<'a> {
             place: self.defect.place().to_owned(),
             what: self.defect.what().to_owned(),
             rows: self.rows.iter().map(row).collect(),
-            pseudo: checks.zip(self.looks.0).collect(),
+            pseudo: checks.zip(self.objections.0).collect(),
         }
     }
 
@@ -96,14 +96,14 @@ impl<'a> Report<'a> {
             && self.idle().is_empty()
     }
 
-    fn table(&self) -> Table {
+    fn table(&self) -> TextTable {
         let checks = Check::ALL.map(Check::name);
         let header = ["defect", "caught by"].into_iter().chain(checks);
-        let mut table = Table::new("deliberate mistakes and what catches them", header);
+        let mut table = TextTable::new("deliberate mistakes and what catches them", header);
         for showing in &self.showings {
             let by = self.caught_by(showing);
             let cells =
-                [showing.defect.name().to_owned(), by].into_iter().chain(words(showing.looks));
+                [showing.defect.name().to_owned(), by].into_iter().chain(words(showing.objections));
             table.add_row(cells);
         }
         table
@@ -114,14 +114,14 @@ impl<'a> Report<'a> {
         let all = self.showings.len();
         let caught = all - self.uncaught().count();
         let objects = |at: usize| {
-            let said = |showing: &&Showing| showing.looks.0[at] == Some(true);
+            let said = |showing: &&Showing| showing.objections.0[at] == Some(true);
             self.showings.iter().filter(said).count()
         };
         let by_check = Check::ALL.iter().enumerate();
         let by_check: Vec<_> =
             by_check.map(|(at, check)| format!("{} {}", check.name(), objects(at))).collect();
         let blind =
-            |showing: &&Showing| showing.looks.0[1..].iter().all(|look| *look != Some(true));
+            |showing: &&Showing| showing.objections.0[1..].iter().all(|look| *look != Some(true));
         let blind = self.showings.iter().filter(blind).count();
         format!(
             "the matrix catches {caught} of {all} defects; plausibility checks of the same runs catch: {}; {blind} pass \
@@ -148,7 +148,7 @@ impl<'a> Report<'a> {
             );
             for showing in self.showings.iter().filter(|showing| showing.defect.place() == place) {
                 let (name, what) = (showing.defect.name(), showing.defect.what());
-                let looks = words(showing.looks).join(" | ");
+                let looks = words(showing.objections).join(" | ");
                 page += &format!("| `{name}` | {what} | {} | {looks} |\n", self.caught_by(showing));
             }
         }
@@ -183,7 +183,7 @@ impl Shown for Report<'_> {
         text + "\n" + &self.summary()
     }
 
-    fn tables(&self) -> Vec<Table> {
+    fn tables(&self) -> Vec<TextTable> {
         vec![self.table()]
     }
 
@@ -209,7 +209,7 @@ fn capitalised(text: &str) -> String {
 }
 
 /// The words for the answers of checks: an objection, no objection, or unknown.
-fn words(looks: Visible) -> [String; Check::ALL.len()] {
+fn words(looks: Objections) -> [String; Check::ALL.len()] {
     looks.0.map(|objects| match objects {
         Some(true) => "objects".to_owned(),
         Some(false) => "content".to_owned(),

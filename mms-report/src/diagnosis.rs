@@ -12,7 +12,7 @@ use mms_files::write::{pretty, write_files};
 use mms_spec::foreign::Foreign;
 
 use crate::shown::Shown;
-use crate::table::Table;
+use crate::table::TextTable;
 use crate::text::next;
 
 /// The number of hypotheses that a text shows.
@@ -93,9 +93,9 @@ impl Diagnosed<'_> {
         }
     }
 
-    fn table(&self) -> Table {
+    fn table(&self) -> TextTable {
         let header = ["hypothesis", "factor", "explains", ""];
-        let mut table = Table::new(format!("diagnosis of {}", self.input.name.shown()), header);
+        let mut table = TextTable::new(format!("diagnosis of {}", self.input.name.shown()), header);
         for it in self.diagnosis.ranked.iter().take(SHOWN) {
             let factor: Vec<String> =
                 it.factor.iter().map(|factor| format!("{factor:.4}")).collect();
@@ -118,7 +118,7 @@ impl Shown for Diagnosed<'_> {
         self.all(true)
     }
 
-    fn tables(&self) -> Vec<Table> {
+    fn tables(&self) -> Vec<TextTable> {
         vec![self.table()]
     }
 
@@ -308,9 +308,9 @@ pub struct Hypotheses<'a> {
 }
 
 impl Hypotheses<'_> {
-    fn table(&self) -> Table {
+    fn table(&self) -> TextTable {
         let header = ["hypothesis", "changes", "kind", "shown by", "what it is"];
-        let mut table = Table::new(format!("hypotheses about {}", self.field.shown()), header);
+        let mut table = TextTable::new(format!("hypotheses about {}", self.field.shown()), header);
         for it in &self.all {
             let title = it.size_of.map_or(it.title.clone(), |_| format!("  {}", it.title));
             table.add_row([&title, it.changes, it.kind.name(), it.shown_by, &it.says]);
@@ -326,7 +326,7 @@ impl Shown for Hypotheses<'_> {
         self.table().to_string()
     }
 
-    fn tables(&self) -> Vec<Table> {
+    fn tables(&self) -> Vec<TextTable> {
         vec![self.table()]
     }
 

@@ -3,7 +3,7 @@
 use mms_documents::extremes::{ExtremeRow, Extremes, StabilityLimit};
 use mms_documents::provenance::Provenance;
 use mms_lab::extremes::rows::ExtremeSetting;
-use mms_lab::extremes::verdict::{Declared, Seen, Verdict, bound};
+use mms_lab::extremes::verdict::{Declared, ExtremeVerdict, RunResult, bound};
 use mms_options::method::Arithmetic;
 use mms_runtime::Method;
 use mms_spec::foreign::Foreign;
@@ -11,7 +11,7 @@ use mms_spec::foreign::Foreign;
 use super::method;
 use super::text::tally;
 use crate::shown::Shown;
-use crate::table::Table;
+use crate::table::TextTable;
 
 /// The results of a field at its extremes.
 pub struct Report {
@@ -28,7 +28,7 @@ pub struct Report {
     /// The field as declared.
     pub declared: Declared,
     /// The rows.
-    pub rows: Vec<Judged>,
+    pub rows: Vec<JudgedExtreme>,
     /// The largest stable Courant numbers.
     pub stability: Vec<Stability>,
     /// The provenance.
@@ -36,15 +36,15 @@ pub struct Report {
 }
 
 /// A row with its result.
-pub struct Judged {
+pub struct JudgedExtreme {
     /// The row.
     pub row: ExtremeSetting,
     /// The extreme in words.
     pub setting: String,
     /// The result of the run.
-    pub seen: Seen,
+    pub seen: RunResult,
     /// The verdict on the result.
-    pub verdict: Verdict,
+    pub verdict: ExtremeVerdict,
 }
 
 /// The largest stable Courant number of a method.
@@ -85,11 +85,11 @@ impl Stability {
     }
 }
 
-impl Judged {
+impl JudgedExtreme {
     /// The largest allowed l2; `None` for a run that stopped, since the bound needs the round-off of the run.
     fn bound(&self, declared: Declared) -> Option<f64> {
         match self.seen {
-            Seen::Ended { round_off, cell_size, .. } => {
+            RunResult::Ended { round_off, cell_size, .. } => {
                 bound(&self.row, declared, cell_size, round_off)
             }
             _ => None,
@@ -110,23 +110,23 @@ impl Judged {
 
     fn seen(&self) -> String {
         match &self.seen {
-            Seen::Ended { l2, .. } => format!("{l2:.1e}"),
-            Seen::Stopped { diagnosis, .. } => diagnosis.name().into(),
-            Seen::LeftOut { .. } => "-".into(),
+            RunResult::Ended { l2, .. } => format!("{l2:.1e}"),
+            RunResult::Stopped { diagnosis, .. } => diagnosis.name().into(),
+            RunResult::LeftOut { .. } => "-".into(),
         }
     }
 
     fn document(&self, declared: Declared) -> ExtremeRow {
         let l2 = match self.seen {
-            Seen::Ended { l2, .. } => Some(l2),
+            RunResult::Ended { l2, .. } => Some(l2),
             _ => None,
         };
         let (diagnosis, reason) = match &self.seen {
-            Seen::Ended { .. } => (None, None),
-            Seen::Stopped { diagnosis, reason } => {
+            RunResult::Ended { .. } => (None, None),
+            RunResult::Stopped { diagnosis, reason } => {
                 (Some(diagnosis.name().to_owned()), Some(reason.clone()))
             }
-            Seen::LeftOut { reason } => (None, Some(reason.clone())),
+            RunResult::LeftOut { reason } => (None, Some(reason.clone())),
         };
         ExtremeRow {
             name: self.row.name.clone(),
@@ -150,7 +150,7 @@ const UNMEASURED: &str = "nothing was measured";
 impl Report {
     /// Whether the field could be put at none of the selected extremes.
     fn is_unmeasured(&self) -> bool {
-        let is_left_out = |row: &Judged| row.verdict == Verdict::LeftOut;
+        let is_left_out = |row: &JudgedExtreme| row.verdict == ExtremeVerdict::LeftOut;
         self.rows.iter().all(is_left_out) && self.stability.is_empty()
     }
 
@@ -165,9 +165,9 @@ impl Report {
         rows.chain(limits.map(|it| format!("stability/{}", name(&it.method)))).collect()
     }
 
-    fn rows_table(&self) -> Table {
+    fn rows_table(&self) -> TextTable {
         let header = ["row", "setting", "expected", "seen", "verdict", ""];
-        let mut table = Table::new(format!("{} at its limits", self.field.shown()), header);
+        let mut table = TextTable::new(format!("{} at its limits", self.field.shown()), header);
         for row in &self.rows {
             table.add_row([
                 row.row.name.clone(),
@@ -181,9 +181,9 @@ impl Report {
         table
     }
 
-    fn limits_table(&self) -> Table {
+    fn limits_table(&self) -> TextTable {
         let header = ["largest stable Courant number", "theory", "measured", "verdict", ""];
-        let mut limits = Table::new("largest stable Courant numbers", header).right([1, 2]);
+        let mut limits = TextTable::new("largest stable Courant numbers", header).right([1, 2]);
         for it in &self.stability {
             limits.add_row([
                 name(&it.method),
@@ -217,9 +217,11 @@ impl Shown for Report {
         }
         for row in &self.rows {
             let reason = match &row.seen {
-                Seen::LeftOut { reason } => reason,
-                Seen::Stopped { reason, .. } if !row.verdict.is_expected() => reason,
-                Seen::Ended { .. } if row.verdict != Verdict::WithinBound => &row.row.theory,
+                RunResult::LeftOut { reason } => reason,
+                RunResult::Stopped { reason, .. } if !row.verdict.is_expected() => reason,
+                RunResult::Ended { .. } if row.verdict != ExtremeVerdict::WithinBound => {
+                    &row.row.theory
+                }
                 _ => continue,
             };
             text += &format!("\n{}: {}: {reason}", row.row.name, row.verdict.name());
@@ -231,7 +233,7 @@ impl Shown for Report {
         text + "\n" + &tally(unexpected, count, "as theory expects")
     }
 
-    fn tables(&self) -> Vec<Table> {
+    fn tables(&self) -> Vec<TextTable> {
         let limits = (!self.stability.is_empty()).then(|| self.limits_table());
         [self.rows_table()].into_iter().chain(limits).collect()
     }

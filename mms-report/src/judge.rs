@@ -13,7 +13,7 @@ use super::excluded;
 use super::page::Section as _;
 use super::plot::Figure;
 use super::shown::Shown;
-use super::table::{PAIR, Table};
+use super::table::{PAIR, TextTable};
 use super::text::next;
 
 /// The text, the table and the picture of judgements.
@@ -85,7 +85,7 @@ impl View<'_> {
     }
 
     /// The levels of a quantity, or the runs of a grid of h and dt.
-    fn table(&self, quantity: &Quantity) -> Table {
+    fn table(&self, quantity: &Quantity) -> TextTable {
         match self.0.refined {
             Refined::Grid => self.grid_table(quantity),
             _ => self.levels_table(quantity),
@@ -100,12 +100,12 @@ impl View<'_> {
         format!("{}: errors{of}", shown(&self.0.source))
     }
 
-    fn levels_table(&self, quantity: &Quantity) -> Table {
+    fn levels_table(&self, quantity: &Quantity) -> TextTable {
         let length = if self.0.refined == Refined::Time { "dt" } else { "h" };
         let mut header = vec![length.to_owned(), "runs".into()];
         let norms: Vec<_> = quantity.norms.iter().map(|norm| self.0.levels(norm)).collect();
         header.extend(quantity.norms.iter().flat_map(|it| [it.name.shown(), PAIR.into()]));
-        let mut table = Table::new(self.caption(quantity), header).right_from(0);
+        let mut table = TextTable::new(self.caption(quantity), header).right_from(0);
         for at in 0..norms.first().map_or(0, Vec::len) {
             let (level, _) = &norms[0][at];
             let mut row = vec![format!("{:.3e}", level.length), level.errors.len().to_string()];
@@ -119,10 +119,10 @@ impl View<'_> {
         table
     }
 
-    fn grid_table(&self, quantity: &Quantity) -> Table {
+    fn grid_table(&self, quantity: &Quantity) -> TextTable {
         let mut header = vec!["h".to_owned(), "dt".into()];
         header.extend(quantity.norms.iter().map(|it| it.name.shown()));
-        let mut table = Table::new(self.caption(quantity), header).right_from(0);
+        let mut table = TextTable::new(self.caption(quantity), header).right_from(0);
         for (at, run) in self.0.measured.runs.iter().enumerate() {
             let number = |it: Option<f64>| it.map_or("-".into(), |it| format!("{it:.3e}"));
             let mut row = vec![number(Some(run.cell_size)), number(run.time_step)];
@@ -164,7 +164,7 @@ impl Shown for View<'_> {
         self.all(true)
     }
 
-    fn tables(&self) -> Vec<Table> {
+    fn tables(&self) -> Vec<TextTable> {
         self.0.each().map(|(quantity, _)| self.table(quantity)).collect()
     }
 

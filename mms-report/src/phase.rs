@@ -4,7 +4,7 @@ use mms_convergence::observed_order;
 use mms_documents::study::{self as documents, PhaseLevel};
 use mms_runtime::study::{Phase, Refinement};
 
-use super::table::Table;
+use super::table::TextTable;
 
 /// The amplitudes and phases of some periods.
 pub struct Phases {
@@ -51,10 +51,10 @@ impl Phases {
     }
 
     /// The table for a terminal.
-    pub fn table(&self, lengths: &[Option<f64>], refinement: Refinement) -> Table {
+    pub fn table(&self, lengths: &[Option<f64>], refinement: Refinement) -> TextTable {
         let length = if refinement == Refinement::Time { "time step" } else { "cell size" };
         let header = ["in period", length, "amplitude error", "order", "phase lag", "order"];
-        let mut table = Table::new("amplitude and phase", header).right_from(0);
+        let mut table = TextTable::new("amplitude and phase", header).right_from(0);
         for (which, number) in self.measured.iter().enumerate() {
             let rows = self.rows(which, lengths, refinement);
             for (row, length) in rows.into_iter().zip(lengths) {

@@ -6,11 +6,11 @@ use mms_documents::diagnose::{DiagnosePlan, DiagnoseStep};
 use mms_spec::foreign::Foreign;
 
 use super::shown::Shown;
-use super::table::Table;
+use super::table::TextTable;
 
 /// A step of the ladder; each step assumes that the one before passed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
-pub enum Step {
+pub enum DiagnosisStep {
     /// F and a stress, without a solver.
     Law,
     /// Residuals at nodes, at an exact state.
@@ -21,32 +21,32 @@ pub enum Step {
     Results,
 }
 
-impl Step {
+impl DiagnosisStep {
     /// The name on the command line.
     fn name(self) -> &'static str {
         match self {
-            Step::Law => "law",
-            Step::Residual => "residual",
-            Step::Accelerations => "accelerations",
-            Step::Results => "results",
+            DiagnosisStep::Law => "law",
+            DiagnosisStep::Residual => "residual",
+            DiagnosisStep::Accelerations => "accelerations",
+            DiagnosisStep::Results => "results",
         }
     }
 
     /// The input that the step needs.
     fn needs(self) -> &'static str {
         match self {
-            Step::Law => {
+            DiagnosisStep::Law => {
                 "a table of F and of P, S, sigma or tau, as your law computes them: ten rows or more, with shear; no mesh, \
                  and no solver"
             }
-            Step::Residual => {
+            DiagnosisStep::Residual => {
                 "the exact u at your nodes (`mms state FIELD --points NODES --time T`), given to your code; the residual that it \
                  finds there, one value for each node"
             }
-            Step::Accelerations => {
+            DiagnosisStep::Accelerations => {
                 "the same state; the accelerations that your code finds there, with the cells or a column `volume`"
             }
-            Step::Results => {
+            DiagnosisStep::Results => {
                 "u at one time or more, of two meshes, with v or F if your code writes them"
             }
         }
@@ -55,21 +55,21 @@ impl Step {
     /// The cost of the step.
     fn costs(self) -> &'static str {
         match self {
-            Step::Law => "no run",
-            Step::Residual | Step::Accelerations => {
+            DiagnosisStep::Law => "no run",
+            DiagnosisStep::Residual | DiagnosisStep::Accelerations => {
                 "no step in time, and no solve for residuals: a finer mesh costs next to nothing, and shows smaller mistakes"
             }
-            Step::Results => "runs of your code, and seconds of the built-in solver",
+            DiagnosisStep::Results => "runs of your code, and seconds of the built-in solver",
         }
     }
 
     /// The command for a field.
     fn command(self, field: &str) -> String {
         let rest = match self {
-            Step::Law => "law.csv --quantity stress",
-            Step::Residual => "residual.vtu --residual nodal --time T",
-            Step::Accelerations => "accelerations.vtu --time T",
-            Step::Results => "coarse.vtu fine.vtu",
+            DiagnosisStep::Law => "law.csv --quantity stress",
+            DiagnosisStep::Residual => "residual.vtu --residual nodal --time T",
+            DiagnosisStep::Accelerations => "accelerations.vtu --time T",
+            DiagnosisStep::Results => "coarse.vtu fine.vtu",
         };
         format!("mms diagnose {field} {rest}")
     }
@@ -77,34 +77,34 @@ impl Step {
     /// Whether the step detects a hypothesis.
     fn shows(self, hypothesis: &Listed) -> bool {
         let word = match self {
-            Step::Law => "law",
-            Step::Residual | Step::Accelerations => "exact state",
-            Step::Results => "results",
+            DiagnosisStep::Law => "law",
+            DiagnosisStep::Residual | DiagnosisStep::Accelerations => "exact state",
+            DiagnosisStep::Results => "results",
         };
         hypothesis.size_of.is_none() && hypothesis.shown_by.split(", ").any(|it| it == word)
     }
 }
 
 /// The steps that are possible with a code.
-pub struct Plan<'a> {
+pub struct DiagnosisPlan<'a> {
     /// The field.
     pub field: &'a Foreign,
     /// The steps.
-    pub steps: Vec<Step>,
+    pub steps: Vec<DiagnosisStep>,
     /// All hypotheses about the field.
     pub hypotheses: Vec<Listed>,
 }
 
-impl<'a> Plan<'a> {
+impl<'a> DiagnosisPlan<'a> {
     /// The steps in the order of the ladder; all of them if none is given.
-    pub fn new(field: &'a Foreign, asked: &[Step], hypotheses: Vec<Listed>) -> Self {
-        let all = Step::value_variants().iter().copied();
+    pub fn new(field: &'a Foreign, asked: &[DiagnosisStep], hypotheses: Vec<Listed>) -> Self {
+        let all = DiagnosisStep::value_variants().iter().copied();
         let steps = all.filter(|it| asked.is_empty() || asked.contains(it)).collect();
-        Plan { field, steps, hypotheses }
+        DiagnosisPlan { field, steps, hypotheses }
     }
 
     /// The names of the hypotheses that a step detects, each once.
-    fn seen(&self, step: Step) -> Vec<&str> {
+    fn seen(&self, step: DiagnosisStep) -> Vec<&str> {
         let shown = self.hypotheses.iter().filter(|it| step.shows(it));
         let mut names: Vec<&str> = shown.map(|it| it.title.as_str()).collect();
         names.dedup();
@@ -112,7 +112,7 @@ impl<'a> Plan<'a> {
     }
 }
 
-impl Shown for Plan<'_> {
+impl Shown for DiagnosisPlan<'_> {
     type Document = DiagnosePlan;
 
     fn text(&self) -> String {
@@ -132,10 +132,10 @@ impl Shown for Plan<'_> {
         std::iter::once(head.to_owned()).chain(each).collect::<Vec<_>>().join("\n\n")
     }
 
-    fn tables(&self) -> Vec<Table> {
+    fn tables(&self) -> Vec<TextTable> {
         let field = self.field.shown();
         let caption = format!("steps of a diagnosis with {field}");
-        let mut table = Table::new(caption, ["step", "needs", "costs", "run", "sees"]);
+        let mut table = TextTable::new(caption, ["step", "needs", "costs", "run", "sees"]);
         for step in &self.steps {
             table.add_row([
                 step.name().to_owned(),
@@ -150,7 +150,7 @@ impl Shown for Plan<'_> {
 
     fn document(&self) -> DiagnosePlan {
         let field = self.field.shown();
-        let step = |step: &Step| DiagnoseStep {
+        let step = |step: &DiagnosisStep| DiagnoseStep {
             step: step.name().to_owned(),
             needs: step.needs().to_owned(),
             costs: step.costs().to_owned(),

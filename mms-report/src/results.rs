@@ -7,12 +7,12 @@ use mms_spec::foreign::shown;
 use serde::Serialize;
 
 use super::shown::Shown;
-use super::table::Table;
+use super::table::TextTable;
 
 /// A comparison of results with saved ones, or with each other.
 pub struct Compared<D> {
     text: String,
-    table: Table,
+    table: TextTable,
     document: D,
 }
 
@@ -23,7 +23,7 @@ impl<D: Clone + Serialize> Shown for Compared<D> {
         self.text.clone()
     }
 
-    fn tables(&self) -> Vec<Table> {
+    fn tables(&self) -> Vec<TextTable> {
         vec![self.table.clone()]
     }
 
@@ -35,7 +35,7 @@ impl<D: Clone + Serialize> Shown for Compared<D> {
 /// Errors beside the saved ones.
 pub fn with_baseline(title: &str, all: &[Saved], verdict: Verdict) -> Compared<JudgeBaseline> {
     let header = ["quantity", "norm", "h", "error", "saved", "change"];
-    let mut table = Table::new(title, header).right_from(0);
+    let mut table = TextTable::new(title, header).right_from(0);
     for it in all {
         let change = 100.0 * (it.error / it.saved - 1.0);
         table.add_row([
@@ -65,7 +65,7 @@ pub fn with_baseline(title: &str, all: &[Saved], verdict: Verdict) -> Compared<J
 pub fn differences(a: &str, b: &str, same: &Same) -> Compared<JudgeSame> {
     let Same { differences: all, alone, words, paired, .. } = same;
     let header = ["array", "time", "largest", "relative", "where"];
-    let mut table = Table::new(format!("{} and {}", shown(a), shown(b)), header);
+    let mut table = TextTable::new(format!("{} and {}", shown(a), shown(b)), header);
     for it in all {
         table.add_row([
             shown(&it.name),

@@ -9,8 +9,8 @@ use mms_runtime::study::{Balance, Details, Deviations};
 use mms_runtime::{Division, Errors, Method};
 use mms_spec::foreign::Foreign;
 
-use super::{Refused, method};
-use crate::table::Table;
+use super::{UnstartedLevel, method};
+use crate::table::TextTable;
 
 /// A run.
 pub struct Run {
@@ -23,7 +23,7 @@ pub struct Run {
     /// The arithmetic.
     pub arithmetic: Arithmetic,
     /// The run, or the reason why it was not started.
-    pub run: Result<mms_runtime::Run, Refused>,
+    pub run: Result<mms_runtime::Run, UnstartedLevel>,
     /// The provenance.
     pub provenance: Provenance,
 }
@@ -141,9 +141,9 @@ fn times(run: &mms_runtime::Run) -> String {
     )
 }
 
-fn table(details: &Details) -> Table {
+fn table(details: &Details) -> TextTable {
     let header = ["error of", "l1", "l2", "linf", "at the end: l1", "l2", "linf"];
-    let mut table = Table::new("errors over time and at the end", header).right_from(1);
+    let mut table = TextTable::new("errors over time and at the end", header).right_from(1);
     let rows = quantities(&details.largest).into_iter().zip(quantities(&details.last));
     // A body in equilibrium is at rest.
     let moves = details.residual.is_none();

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use anyhow::bail;
 use serde::Serialize;
 
-use super::table::Table;
+use super::table::TextTable;
 
 /// The format of what a command prints.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -67,7 +67,7 @@ pub trait Shown {
     }
 
     /// The tables of the text.
-    fn tables(&self) -> Vec<Table>;
+    fn tables(&self) -> Vec<TextTable>;
 
     /// The document.
     fn document(&self) -> Self::Document;
@@ -77,13 +77,14 @@ pub trait Shown {
     /// # Errors
     /// A row that cannot be written.
     fn csv(&self) -> anyhow::Result<String> {
-        let tables: anyhow::Result<Vec<String>> = self.tables().iter().map(Table::csv).collect();
+        let tables: anyhow::Result<Vec<String>> =
+            self.tables().iter().map(TextTable::csv).collect();
         Ok(tables?.join("\n"))
     }
 
     /// The tables as GitHub and GitLab show them.
     fn markdown(&self) -> String {
-        self.tables().iter().map(Table::markdown).collect::<Vec<_>>().join("\n")
+        self.tables().iter().map(TextTable::markdown).collect::<Vec<_>>().join("\n")
     }
 
     /// The cases of a test, as JUnit XML.
@@ -103,7 +104,9 @@ pub trait Shown {
             Format::Text | Format::Json => self.text(),
             Format::Csv => self.csv()?,
             Format::Markdown => self.markdown(),
-            Format::Latex => self.tables().iter().map(Table::latex).collect::<Vec<_>>().join("\n"),
+            Format::Latex => {
+                self.tables().iter().map(TextTable::latex).collect::<Vec<_>>().join("\n")
+            }
             Format::Junit => self.junit()?,
         })
     }

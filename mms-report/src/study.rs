@@ -12,8 +12,8 @@ use mms_files::write::{pretty, write_files};
 use mms_judge::norms_judged;
 use mms_judge::results::Exclusions;
 use mms_options::method::Arithmetic;
-use mms_runtime::study::{Deviations, Orders, Point, Refinement, Series};
-use mms_runtime::{Division, Errors, Level, Method, Refusal, Run};
+use mms_runtime::study::{Deviations, ObservedOrders, Point, Refinement, Series};
+use mms_runtime::{Division, Errors, Method, Refusal, Run, StudyLevel};
 use mms_spec::foreign::Foreign;
 
 use super::page::Section as _;
@@ -21,7 +21,7 @@ use super::page::method::whole;
 use super::plot::Figure;
 use super::run::quantities;
 use super::shown::Shown;
-use super::table::{PAIR, Table};
+use super::table::{PAIR, TextTable};
 use super::text::next;
 use super::{Phases, method};
 
@@ -40,7 +40,7 @@ pub struct Study {
     /// The refined lengths.
     pub refinement: Refinement,
     /// The levels, from coarse to fine.
-    pub levels: Vec<Result<Run, Refused>>,
+    pub levels: Vec<Result<Run, UnstartedLevel>>,
     /// The difference of each level from the next, in a study in time.
     pub differences: Option<Series>,
     /// The expected order and its tolerance.
@@ -71,14 +71,14 @@ pub struct Study {
 
 /// A run, or a level of a study, that was not started.
 #[derive(Clone, Debug)]
-pub struct Refused {
+pub struct UnstartedLevel {
     /// Cells of the body.
     pub cells: Division,
     /// The reason why the level was not started.
     pub reason: Refusal,
 }
 
-impl fmt::Display for Refused {
+impl fmt::Display for UnstartedLevel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "not started: {}", self.reason)
     }
@@ -123,7 +123,7 @@ fn row(run: &Run, before: Option<&Run>, refinement: Refinement) -> documents::Le
 }
 
 /// A level that was not started.
-fn refused_row(refused: &Refused) -> documents::Level {
+fn refused_row(refused: &UnstartedLevel) -> documents::Level {
     documents::Level {
         cells: method::division(&refused.cells),
         cell_size: None,
@@ -144,8 +144,8 @@ fn is_noise(row: &documents::Level) -> bool {
 }
 
 /// The orders from the point before, if there is one.
-fn orders(point: &Point, before: Option<Point>) -> Orders {
-    before.map_or_else(Orders::default, |before| point.orders_from(&before))
+fn orders(point: &Point, before: Option<Point>) -> ObservedOrders {
+    before.map_or_else(ObservedOrders::default, |before| point.orders_from(&before))
 }
 
 /// The remark on the verdict of a study in time.
@@ -153,10 +153,10 @@ const IN_TIME: &str = "differences between runs show that the runs converge, but
                        errors against the exact solution, without `--refine time`";
 
 /// The errors of a level, if it ended, and the orders from the level before.
-type Judged = (Option<Errors>, Orders);
+type ErrorsAndOrders = (Option<Errors>, ObservedOrders);
 
 /// Norms, and the orders from the level before.
-pub(super) fn norms(errors: Option<Errors>, observed: Orders) -> LevelErrors {
+pub(super) fn norms(errors: Option<Errors>, observed: ObservedOrders) -> LevelErrors {
     LevelErrors {
         l1: errors.map(|errors| errors.l1),
         l2: errors.map(|errors| errors.l2),
@@ -168,7 +168,7 @@ pub(super) fn norms(errors: Option<Errors>, observed: Orders) -> LevelErrors {
 }
 
 /// The difference of two levels.
-fn difference((point, observed): (Point, Orders)) -> documents::LevelDifference {
+fn difference((point, observed): (Point, ObservedOrders)) -> documents::LevelDifference {
     documents::LevelDifference { time_step: point.length, errors: norms(point.errors, observed) }
 }
 
@@ -194,7 +194,7 @@ impl Study {
     }
 
     /// Each level, and the one before if both were started.
-    fn pairs(&self) -> impl Iterator<Item = (&Result<Run, Refused>, Option<&Run>)> {
+    fn pairs(&self) -> impl Iterator<Item = (&Result<Run, UnstartedLevel>, Option<&Run>)> {
         let before =
             std::iter::once(None).chain(self.levels.iter().map(|level| level.as_ref().ok()));
         self.levels.iter().zip(before)
@@ -207,7 +207,7 @@ impl Study {
     }
 
     fn rows(&self) -> Vec<documents::Level> {
-        let row = |(level, before): (&Result<Run, Refused>, Option<&Run>)| match level {
+        let row = |(level, before): (&Result<Run, UnstartedLevel>, Option<&Run>)| match level {
             Ok(run) => row(run, before, self.refinement),
             Err(refused) => refused_row(refused),
         };
@@ -215,7 +215,7 @@ impl Study {
     }
 
     /// The symbol, the key, and the errors and orders of each level, for u, v, F and P.
-    fn quantities(&self) -> [(&'static str, &'static str, Vec<Judged>); 4] {
+    fn quantities(&self) -> [(&'static str, &'static str, Vec<ErrorsAndOrders>); 4] {
         let names = quantities(&Deviations::default());
         std::array::from_fn(|which| {
             let point = |run: &Run| Point {
@@ -223,9 +223,10 @@ impl Study {
                 errors: run.details.as_ref().map(|it| quantities(&it.largest)[which].2),
                 floor: 0.0,
             };
-            let level = |(level, before): (&Result<Run, Refused>, Option<&Run>)| match level {
+            let level = |(level, before): (&Result<Run, UnstartedLevel>, Option<&Run>)| match level
+            {
                 Ok(run) => (point(run).errors, orders(&point(run), before.map(point))),
-                Err(_) => (None, Orders::default()),
+                Err(_) => (None, ObservedOrders::default()),
             };
             let (symbol, key, _) = names[which];
             (symbol, key, self.pairs().map(level).collect())
@@ -233,7 +234,7 @@ impl Study {
     }
 
     /// The difference of each level from the next, and the orders between them.
-    fn steps(&self) -> Option<Vec<(Point, Orders)>> {
+    fn steps(&self) -> Option<Vec<(Point, ObservedOrders)>> {
         let points = self.differences.as_ref()?.points();
         let before = std::iter::once(None).chain(points.iter().copied().map(Some));
         Some(
@@ -255,9 +256,12 @@ impl Study {
 
     /// The judged levels, by their cells or time steps; in time the last one is not among them.
     pub(super) fn names_of_levels(&self) -> Vec<String> {
-        let name = |level: &Result<Run, Refused>| match (level, self.refinement) {
+        let name = |level: &Result<Run, UnstartedLevel>| match (level, self.refinement) {
             (Ok(run), Refinement::Time) => format!("dt {:.2e}", run.level.time_step),
-            (Ok(Run { level: Level { cells, .. }, .. }) | Err(Refused { cells, .. }), _) => {
+            (
+                Ok(Run { level: StudyLevel { cells, .. }, .. }) | Err(UnstartedLevel { cells, .. }),
+                _,
+            ) => {
                 format!("{cells} cells")
             }
         };
@@ -324,19 +328,19 @@ impl Study {
     }
 
     /// The table of amplitude and phase.
-    fn phase_table(&self) -> Option<Table> {
+    fn phase_table(&self) -> Option<TextTable> {
         let table = self.phases.as_ref()?.table(&self.lengths(), self.refinement);
         Some(table.of(&self.field.shown()))
     }
 
-    fn levels_table(&self) -> Table {
+    fn levels_table(&self) -> TextTable {
         let heads = ["cells", "particles", "steps", "l1", PAIR, "l2", PAIR, "linf", PAIR, "time"];
         let relaxes = self.method.setup.relax;
         let header = heads.into_iter().chain(relaxes.then_some("residual"));
         let when = if relaxes { "at equilibrium" } else { "the largest over time" };
         let method = whole(&method::document(&self.method, self.arithmetic));
         let caption = format!("{}: errors of u, {when}; {method}", self.field.shown());
-        let mut table = Table::new(caption, header).right_from(0);
+        let mut table = TextTable::new(caption, header).right_from(0);
         for row in self.rows() {
             let dead = if row.steps.is_some() { "stopped" } else { "not started" };
             let error = |error: Option<f64>| error.map_or(dead.into(), |e| format!("{e:.2e}"));
@@ -366,14 +370,15 @@ impl Study {
     }
 
     /// The orders of every quantity between the two finest levels.
-    fn quantities_table(&self) -> Table {
+    fn quantities_table(&self) -> TextTable {
         let caption = format!("{}: orders on the finest pair", self.field.shown());
         let header = ["finest pair", "l1", "l2", "linf"];
-        let mut table = Table::new(caption, header).right_from(0);
+        let mut table = TextTable::new(caption, header).right_from(0);
         // A body in equilibrium is at rest.
         let is_shown = |symbol: &str| symbol != "v" || !self.method.setup.relax;
         for (symbol, _, levels) in self.quantities().into_iter().filter(|it| is_shown(it.0)) {
-            let finest = levels.last().map_or_else(Orders::default, |(_, observed)| *observed);
+            let finest =
+                levels.last().map_or_else(ObservedOrders::default, |(_, observed)| *observed);
             let cells = [finest.l1, finest.l2, finest.linf];
             let cells = cells.map(|order| order.map_or("-".into(), |o| format!("{o:.2}")));
             table.add_row([&[format!("order of {symbol}")][..], &cells].concat());
@@ -381,10 +386,10 @@ impl Study {
         table
     }
 
-    fn differences_table(&self, steps: &[(Point, Orders)]) -> Table {
+    fn differences_table(&self, steps: &[(Point, ObservedOrders)]) -> TextTable {
         let header = ["time step", "to the next: l1", PAIR, "l2", PAIR, "linf", PAIR];
         let caption = format!("{}: differences to the next level", self.field.shown());
-        let mut table = Table::new(caption, header).right_from(0);
+        let mut table = TextTable::new(caption, header).right_from(0);
         for (point, observed) in steps {
             let of = |norm: fn(&Errors) -> f64, order: Option<f64>| {
                 let error = point.errors.as_ref().map(norm);
@@ -555,7 +560,7 @@ impl Shown for Study {
         self.all(true)
     }
 
-    fn tables(&self) -> Vec<Table> {
+    fn tables(&self) -> Vec<TextTable> {
         let mut tables = vec![self.levels_table()];
         tables.extend(self.steps().map(|steps| self.differences_table(&steps)));
         tables.extend(self.differences.is_none().then(|| self.quantities_table()));

@@ -13,7 +13,7 @@ pub const FITTED: &str = "fitted order";
 
 /// A table of texts.
 #[derive(Clone)]
-pub struct Table {
+pub struct TextTable {
     /// The caption, which all views except the terminal show.
     caption: String,
     header: Vec<String>,
@@ -24,7 +24,7 @@ pub struct Table {
     is_first_apart: bool,
 }
 
-impl Table {
+impl TextTable {
     /// A table without rows.
     pub fn new<S: Into<String>>(
         caption: impl Into<String>,
@@ -32,7 +32,7 @@ impl Table {
     ) -> Self {
         let header = header.into_iter().map(Into::into).collect();
         let caption = caption.into();
-        Table { caption, header, rows: Vec::new(), right: Vec::new(), is_first_apart: false }
+        TextTable { caption, header, rows: Vec::new(), right: Vec::new(), is_first_apart: false }
     }
 
     /// Adds a row with a cell for each column.
@@ -126,7 +126,7 @@ impl Table {
     }
 }
 
-impl fmt::Display for Table {
+impl fmt::Display for TextTable {
     /// Columns for a terminal.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut columns = Columns::new();
@@ -188,8 +188,8 @@ fn scientific(text: &str) -> Option<(&str, i32)> {
 mod tests {
     use super::*;
 
-    fn table() -> Table {
-        let mut table = Table::new("errors of bar_1d", ["quantity", "l2", ""]).right([1]);
+    fn table() -> TextTable {
+        let mut table = TextTable::new("errors of bar_1d", ["quantity", "l2", ""]).right([1]);
         table.add_row(["u_x", "1.25e-3", "a | b, 5 %"]);
         table.add_row(["~F", "-", ""]);
         table

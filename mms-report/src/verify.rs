@@ -4,7 +4,7 @@ use mms_documents::provenance::Provenance;
 use mms_documents::study::{Level, LevelErrors};
 use mms_documents::verify::{ListedRow, VerifiedRow, Verify, VerifyList};
 use mms_files::words::duration;
-use mms_lab::outcome::Outcome;
+use mms_lab::outcome::SolverOutcome;
 use mms_lab::rows::Named as _;
 use mms_options::Study;
 use mms_verify::matrix::MatrixRow;
@@ -12,7 +12,7 @@ use mms_verify::verdict::Judgement;
 
 use crate::method::division;
 use crate::shown::Shown;
-use crate::table::Table;
+use crate::table::TextTable;
 use crate::tally;
 use crate::text::next;
 
@@ -21,24 +21,24 @@ pub struct Report<'a> {
     /// Whether `--quick` was given.
     pub quick: bool,
     /// The rows that were run.
-    pub rows: Vec<Judged<'a>>,
+    pub rows: Vec<JudgedRow<'a>>,
     /// The provenance.
     pub provenance: Provenance,
 }
 
 /// A row with its result.
-pub struct Judged<'a> {
+pub struct JudgedRow<'a> {
     /// The row.
     pub row: &'a MatrixRow,
     /// The study of the row.
     pub study: Study,
     /// The levels, coarse to fine.
-    pub levels: Vec<Outcome>,
+    pub levels: Vec<SolverOutcome>,
     /// The judgement of the levels.
     pub judgement: Judgement,
 }
 
-impl Judged<'_> {
+impl JudgedRow<'_> {
     fn document(&self) -> VerifiedRow {
         let Judgement { constant, verdict, expected, reason, .. } = &self.judgement;
         VerifiedRow {
@@ -61,7 +61,7 @@ impl Judged<'_> {
     }
 
     fn seconds(&self) -> f64 {
-        self.levels.iter().filter_map(Outcome::run).map(|run| run.seconds).sum()
+        self.levels.iter().filter_map(SolverOutcome::run).map(|run| run.seconds).sum()
     }
 
     fn level(&self, at: usize) -> Level {
@@ -87,13 +87,13 @@ impl Judged<'_> {
 
 impl Report<'_> {
     /// The rows whose verdict is not the expected one.
-    pub fn unexpected(&self) -> impl Iterator<Item = &Judged<'_>> {
+    pub fn unexpected(&self) -> impl Iterator<Item = &JudgedRow<'_>> {
         self.rows.iter().filter(|row| !row.judgement.as_expected())
     }
 
-    fn table(&self) -> Table {
+    fn table(&self) -> TextTable {
         let header = ["mode", "field", "formal", "observed", "constant", "verdict", "", "time"];
-        let mut table = Table::new("verification matrix", header).right([2, 3, 4, 7]);
+        let mut table = TextTable::new("verification matrix", header).right([2, 3, 4, 7]);
         for judged in &self.rows {
             let Judgement { constant, verdict, .. } = &judged.judgement;
             table.add_row([
@@ -115,7 +115,7 @@ impl Report<'_> {
         let mut page = String::from(INTRODUCTION);
         let mut group = "";
         for judged in &self.rows {
-            let Judged { row, judgement, .. } = judged;
+            let JudgedRow { row, judgement, .. } = judged;
             if row.group() != group {
                 group = row.group();
                 page += &format!(
@@ -171,14 +171,14 @@ impl Shown for Report<'_> {
         text
     }
 
-    fn tables(&self) -> Vec<Table> {
+    fn tables(&self) -> Vec<TextTable> {
         vec![self.table()]
     }
 
     fn document(&self) -> Verify {
         Verify {
             matrix: if self.quick { "quick" } else { "full" }.to_owned(),
-            rows: self.rows.iter().map(Judged::document).collect(),
+            rows: self.rows.iter().map(JudgedRow::document).collect(),
             unexpected: self.unexpected().map(|judged| judged.row.name.clone()).collect(),
             next_command: self.next(),
             provenance: self.provenance.clone(),
@@ -205,9 +205,9 @@ impl Shown for List<'_> {
         lines.collect()
     }
 
-    fn tables(&self) -> Vec<Table> {
+    fn tables(&self) -> Vec<TextTable> {
         let header = ["mode", "study", "levels", "formal order", "theory"];
-        let mut table = Table::new("rows of the verification matrix", header).right([2, 3]);
+        let mut table = TextTable::new("rows of the verification matrix", header).right([2, 3]);
         for row in self.rows {
             table.add_row([
                 row.name.clone(),
@@ -267,7 +267,7 @@ fn decimals(number: Option<f64>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use mms_verify::matrix::{Expected, Word, rows};
+    use mms_verify::matrix::{ExpectedConvergence, Word, rows};
 
     use super::fixed;
 
@@ -283,7 +283,7 @@ mod tests {
             assert!(line.starts_with(&fixed(row)), "{}: {write}", row.name);
             assert!(line.ends_with(&format!("| {} |", row.theory)), "{}: {write}", row.name);
             let verdict = match row.order {
-                Expected::Word(Word::None) => "| does not converge |",
+                ExpectedConvergence::Word(Word::None) => "| does not converge |",
                 _ => "| pass |",
             };
             assert!(line.contains(verdict), "{}: {line}", row.name);

@@ -27,7 +27,7 @@ use crate::lattice::Lattice;
 use crate::real::{Matrix, Real, Vector};
 use crate::shape::{Shape, lost};
 use crate::spline;
-use crate::stencil::{Known, MOST, Tensor};
+use crate::stencil::{Known, MOST, ProductStencil};
 use crate::tensor::determinant;
 
 /// The number of nodes along an axis that domains of up to a cell's width reach: the nearest one and its neighbours. Domains of
@@ -41,7 +41,7 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
     const FOLLOWS: bool = FOLLOWS;
     const ORIGIN: f64 = -0.5;
     type Domain<T: Real, const D: usize> = Vectors<T, D>;
-    type Stencil<T: Real, const D: usize> = Tensor<T, D>;
+    type Stencil<T: Real, const D: usize> = ProductStencil<T, D>;
 
     fn domain<T: Real, const D: usize>(half_edges: &Matrix<T, D>) -> Vector<T, D> {
         half_widths(half_edges)
@@ -50,7 +50,7 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
     #[inline(always)]
     fn place<T: Real, M: Simd<T>, const D: usize>(
         simd: M,
-        stencil: &mut Tensor<T, D>,
+        stencil: &mut ProductStencil<T, D>,
         lattice: &Lattice<T, D>,
         position: &[M::Eight; D],
         initial: &Vectors<T, D>,
@@ -116,7 +116,7 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
     fn point<T: Real, const D: usize>(
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
-    ) -> Result<Tensor<T, D>, Cause> {
+    ) -> Result<ProductStencil<T, D>, Cause> {
         spline::point::<T, D, 1, 2>(lattice, position)
     }
 }
@@ -124,7 +124,7 @@ impl<const FOLLOWS: bool> Shape for Gimp<FOLLOWS> {
 /// Computes weights for half widths of up to a cell.
 #[cold]
 fn place_wide<T: Real, const D: usize>(
-    stencil: &mut Tensor<T, D>,
+    stencil: &mut ProductStencil<T, D>,
     lattice: &Lattice<T, D>,
     position: &Vectors<T, D>,
     half_width: &Vectors<T, D>,

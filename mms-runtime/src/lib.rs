@@ -89,5 +89,5 @@ pub use method::{Division, Method, Setup};
 pub use real::{Matrix, Real, Vector, arrays, arrays_mut};
 pub use shape::ShapeName;
 pub use solver::{AnySolver, Solver};
-pub use study::{Errors, Level, Run, Solve, run_level};
+pub use study::{Errors, Run, Solve, StudyLevel, run_level};
 pub use transfer::Transfer;

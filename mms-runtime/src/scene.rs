@@ -7,8 +7,8 @@ use crate::field::{Body, ManufacturedField};
 use crate::method::{Division, Method, Setup};
 use crate::real::Real;
 use crate::solver::{cell_size, filling};
-use crate::study::{Level, Run};
 use crate::study::{Observer, Solve, Watch};
+use crate::study::{Run, StudyLevel};
 
 /// The default number of cells along the longest edge of a run, in one to three dimensions.
 pub fn usual_cells(dimension: usize) -> usize {
@@ -196,7 +196,7 @@ impl<T: Solvable> Scene<T> {
         method: &Method,
         cells: &Division,
         observer: &mut dyn Observer,
-    ) -> Result<Level, Refusal> {
+    ) -> Result<StudyLevel, Refusal> {
         self.run(method, cells, Watch::Displacement, observer).map(|run| run.level)
     }
 }

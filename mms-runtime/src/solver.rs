@@ -77,7 +77,7 @@ use crate::transfer::Transfer;
 use clock::Clock;
 use slabs::Slabs;
 use sorting::When;
-use weights::{CachedDomains, Domains, Kind};
+use weights::{CachedDomains, Domains, ShapeProperties};
 
 pub use any::AnySolver;
 pub(crate) use any::of_method;
@@ -96,7 +96,7 @@ pub struct Solver<'f, T: Real, const D: usize, F: ?Sized> {
     field: &'f F,
     clock: Clock,
     particles: Particles<T, D>,
-    kind: Kind<T, D>,
+    kind: ShapeProperties<T, D>,
     domains: Box<dyn Domains<T, D>>,
     grid: Grid<T, D>,
     boundary: Boundary<T, D>,

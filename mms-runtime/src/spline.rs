@@ -14,7 +14,7 @@ use crate::lanes::{components, vectors};
 use crate::lattice::Lattice;
 use crate::real::{Matrix, Real, Vector};
 use crate::shape::{Shape, lost};
-use crate::stencil::{Known, Tensor};
+use crate::stencil::{Known, ProductStencil};
 
 /// The distance beyond the ends that a particle may reach, in cells. Particles farther out are lost.
 const SLACK: f64 = 0.5;
@@ -25,14 +25,14 @@ pub struct Spline<const P: usize, const N: usize>;
 impl<const P: usize, const N: usize> Shape for Spline<P, N> {
     const DEGREE: usize = P;
     type Domain<T: Real, const D: usize> = ();
-    type Stencil<T: Real, const D: usize> = Tensor<T, D>;
+    type Stencil<T: Real, const D: usize> = ProductStencil<T, D>;
 
     fn domain<T: Real, const D: usize>(_: &Matrix<T, D>) {}
 
     #[inline(always)]
     fn place<T: Real, M: Simd<T>, const D: usize>(
         simd: M,
-        stencil: &mut Tensor<T, D>,
+        stencil: &mut ProductStencil<T, D>,
         lattice: &Lattice<T, D>,
         position: &[M::Eight; D],
         (): &(),
@@ -44,7 +44,7 @@ impl<const P: usize, const N: usize> Shape for Spline<P, N> {
     fn point<T: Real, const D: usize>(
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
-    ) -> Result<Tensor<T, D>, Cause> {
+    ) -> Result<ProductStencil<T, D>, Cause> {
         point::<T, D, P, N>(lattice, position)
     }
 }
@@ -56,7 +56,7 @@ impl<const P: usize, const N: usize> Shape for Spline<P, N> {
 #[inline(always)]
 pub fn place<T, M, const D: usize, const P: usize, const N: usize>(
     simd: M,
-    stencil: &mut Tensor<T, D>,
+    stencil: &mut ProductStencil<T, D>,
     lattice: &Lattice<T, D>,
     position: &[M::Eight; D],
 ) -> Result<(), Cause>
@@ -89,7 +89,7 @@ where
 /// them.
 #[cold]
 fn place_near_ends<T: Real, const D: usize, const P: usize, const N: usize>(
-    stencil: &mut Tensor<T, D>,
+    stencil: &mut ProductStencil<T, D>,
     lattice: &Lattice<T, D>,
     position: &Vectors<T, D>,
     cells: &Vectors<T, D>,
@@ -128,8 +128,8 @@ fn place_near_ends<T: Real, const D: usize, const P: usize, const N: usize>(
 pub fn point<T: Real, const D: usize, const P: usize, const N: usize>(
     lattice: &Lattice<T, D>,
     position: &Vector<T, D>,
-) -> Result<Tensor<T, D>, Cause> {
-    let mut stencil = Tensor::new();
+) -> Result<ProductStencil<T, D>, Cause> {
+    let mut stencil = ProductStencil::new();
     let simd = T::PlainSimd::from(Plain);
     let position = components(simd, &Vectors::alike(position));
     place::<T, _, D, P, N>(simd, &mut stencil, lattice, &position)?;

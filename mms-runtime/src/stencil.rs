@@ -37,7 +37,7 @@ use crate::lattice::Lattice;
 use crate::nodal::{Nodal, Window};
 use crate::real::{Real, Vector};
 
-pub use tensor::{Known, MOST, Tensor};
+pub use tensor::{Known, MOST, ProductStencil};
 
 /// The data that a pack adds to its nodes.
 #[derive(Clone, Copy)]
@@ -176,7 +176,7 @@ pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
     ) -> Gathered<M::Eight, D>;
 
     /// The stencil as a product of weights along the axes, if it is one.
-    fn product(&self) -> Option<&Tensor<T, D>> {
+    fn product(&self) -> Option<&ProductStencil<T, D>> {
         None
     }
 }

@@ -4,7 +4,7 @@ use crate::common::{AxisAligned, Bar, method, wave::Wave};
 use FormulationName::{Total, Updated};
 use ShapeName::{Cpdi, Cpgimp, CubicBspline, Linear, QuadraticBspline, Ugimp};
 use mms_runtime::convergence::observed_order;
-use mms_runtime::study::{Level, Solve, run_level};
+use mms_runtime::study::{Solve, StudyLevel, run_level};
 use mms_runtime::{
     Body, Condition, Errors, Face, FormulationName, IntegratorName, ManufacturedField, Method,
     Setup, ShapeName, Vector,
@@ -20,7 +20,7 @@ fn level<const D: usize>(
     field: &dyn ManufacturedField<f64, D>,
     method: &Method,
     cells: &str,
-) -> Level
+) -> StudyLevel
 where
     f64: Solve<D>,
 {
@@ -245,7 +245,7 @@ fn bodies_with_loads_on_their_faces_converge() {
     };
     let edges: Vec<Face> = (0..6).map(|first| Face::Edge(first, EDGES[first])).collect();
     let method = with(Cpdi, Updated, &Setup::default());
-    let order = |[coarse, fine]: [Level; 2]| {
+    let order = |[coarse, fine]: [StudyLevel; 2]| {
         let sizes = [coarse.cell_size, fine.cell_size];
         let [coarse, fine] = [coarse, fine].map(|it| it.errors.expect("a run that ends").l2);
         observed_order([coarse, fine], sizes).expect("errors that are not 0")

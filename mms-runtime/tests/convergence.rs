@@ -2,28 +2,28 @@
 
 use crate::common::{Bar, levels, method};
 use mms_runtime::convergence::{ExpectedOrder, TOLERANCE, Verdict};
-use mms_runtime::study::{Level, judge, orders};
+use mms_runtime::study::{StudyLevel, judge, orders};
 use mms_runtime::{Errors, FormulationName, IntegratorName, Method, ShapeName};
 
 const CELLS: [usize; 5] = [8, 16, 32, 64, 128];
 
-fn study(shape: ShapeName, integrator: IntegratorName, courant: f64) -> Vec<Level> {
+fn study(shape: ShapeName, integrator: IntegratorName, courant: f64) -> Vec<StudyLevel> {
     let mut method = method(shape, integrator);
     method.setup.courant = courant;
     levels::<f64, 1>(&Bar::default(), &method, &CELLS)
 }
 
-fn errors(level: &Level) -> Errors {
+fn errors(level: &StudyLevel) -> Errors {
     level.errors.clone().unwrap_or_else(|failure| panic!("{failure}"))
 }
 
-fn finest_orders(levels: &[Level]) -> [f64; 2] {
+fn finest_orders(levels: &[StudyLevel]) -> [f64; 2] {
     let [.., coarse, fine] = levels else { panic!("two levels at least") };
     let orders = orders(coarse, fine);
     [orders.l2.unwrap(), orders.linf.unwrap()]
 }
 
-fn verdict(levels: &[Level]) -> Verdict {
+fn verdict(levels: &[StudyLevel]) -> Verdict {
     let judgement = judge(levels, ExpectedOrder::new(2.0, TOLERANCE));
     println!("{}", judgement.sentences("h", &|h| format!("h {h}")).join("\n"));
     judgement.verdict()
@@ -74,7 +74,7 @@ fn a_body_force_one_step_late_is_of_first_order() {
             let step = method.setup.courant / cells as f64 / 1e3_f64.sqrt();
             levels::<f64, 1>(&Bar { delay: step, ..Bar::default() }, &method, &[cells]).remove(0)
         };
-        let levels: Vec<Level> = CELLS.iter().map(level).collect();
+        let levels: Vec<StudyLevel> = CELLS.iter().map(level).collect();
         let orders = finest_orders(&levels);
         assert!(orders.iter().all(|order| (0.85..1.15).contains(order)), "{shape}: {orders:?}");
         assert_eq!(verdict(&levels), Verdict::Fail, "{shape}");
@@ -96,7 +96,8 @@ fn the_printed_sign_of_the_body_force_fails() {
     let bar = Bar { sign: -1.0, ..Bar::default() };
     let levels = levels::<f64, 1>(&bar, &Method::default(), &CELLS[..4]);
     assert_eq!(verdict(&levels), Verdict::Fail);
-    let converges = |level: &Level| level.errors.as_ref().is_ok_and(|errors| errors.linf < 0.1);
+    let converges =
+        |level: &StudyLevel| level.errors.as_ref().is_ok_and(|errors| errors.linf < 0.1);
     assert!(!levels.iter().any(converges), "{levels:?}");
 }
 

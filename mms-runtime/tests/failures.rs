@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::common::{Affine, Bar, method, methods, wave::Wave};
-use mms_runtime::study::{Level, run_level};
+use mms_runtime::study::{StudyLevel, run_level};
 use mms_runtime::{
     Body, Cause, Condition, Division, Domain, Face, Failure, Fill, FormulationName, IntegratorName,
     ManufacturedField, Material, Matrix, Method, Refusal, Setup, ShapeName, Solve, Transfer,
@@ -79,7 +79,7 @@ fn run<T: Solve<1>>(
     field: &dyn ManufacturedField<T, 1>,
     method: &Method,
     cells: usize,
-) -> Result<Level, Refusal> {
+) -> Result<StudyLevel, Refusal> {
     run_level(field, method, &cells.into(), &mut ())
 }
 
@@ -104,7 +104,7 @@ where
     run_level(field, &with(setup), cells, &mut ()).unwrap_err()
 }
 
-fn failure(level: Level) -> Failure {
+fn failure(level: StudyLevel) -> Failure {
     level.errors.unwrap_err()
 }
 

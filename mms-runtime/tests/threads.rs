@@ -2,7 +2,7 @@
 
 use crate::common::wave::Wave;
 use crate::sampled::sampled;
-use mms_runtime::study::{Frame, Level, Observer, Watch, run_level};
+use mms_runtime::study::{Frame, Observer, StudyLevel, Watch, run_level};
 use mms_runtime::{
     Condition, FormulationName, IntegratorName, Method, Run, Setup, ShapeName, Solve, Transfer,
 };
@@ -76,7 +76,7 @@ fn states_have_their_particles_in_the_first_order() {
 /// Errors continue to fall where slabs begin.
 #[test]
 fn slabs_do_not_change_the_order() {
-    let level = |cells: usize| -> Level {
+    let level = |cells: usize| -> StudyLevel {
         let setup = Setup { end_time: Some(0.15), ..Setup::default() };
         let method = Method { setup, ..Method::default() };
         let run = f64::run(

@@ -3,7 +3,7 @@
 use anyhow::{Context as _, bail, ensure};
 use mms_convergence::TOLERANCE;
 use mms_exact::gallery::{self, Entry};
-use mms_lab::outcome::{Norms, Outcome, Quantity};
+use mms_lab::outcome::{Norms, Quantity, SolverOutcome};
 use mms_lab::rows::{Named, read};
 use mms_options::Study;
 use mms_runtime::Setup;
@@ -31,7 +31,7 @@ pub struct MatrixRow {
     #[serde(default)]
     pub quantity: Quantity,
     /// The order that theory expects.
-    pub order: Expected,
+    pub order: ExpectedConvergence,
     /// The expected order of linf, where it is lower.
     pub linf: Option<f64>,
     /// The tolerance of the observed order.
@@ -52,7 +52,7 @@ pub struct MatrixRow {
 /// The expectation of theory on the error.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(untagged)]
-pub enum Expected {
+pub enum ExpectedConvergence {
     /// An error of this order.
     Order(f64),
     /// An error without an order.
@@ -69,12 +69,12 @@ pub enum Word {
     Exact,
 }
 
-impl std::fmt::Display for Expected {
+impl std::fmt::Display for ExpectedConvergence {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Expected::Order(order) => write!(f, "{order}"),
-            Expected::Word(Word::None) => f.write_str("none"),
-            Expected::Word(Word::Exact) => f.write_str("exact"),
+            ExpectedConvergence::Order(order) => write!(f, "{order}"),
+            ExpectedConvergence::Word(Word::None) => f.write_str("none"),
+            ExpectedConvergence::Word(Word::Exact) => f.write_str("exact"),
         }
     }
 }
@@ -128,14 +128,14 @@ impl MatrixRow {
 
 impl MatrixRow {
     /// The length that the row refines, for a run: h or dt.
-    pub fn size(&self, outcome: &Outcome) -> Option<f64> {
+    pub fn size(&self, outcome: &SolverOutcome) -> Option<f64> {
         let time_alone = self.halvings > 0;
         outcome.run().map(|run| if time_alone { run.time_step } else { run.cell_size })
     }
 
     /// The errors of a run that the row judges, if the run reached its end.
-    pub fn errors(&self, outcome: &Outcome) -> Option<Norms> {
-        let Outcome::Finished { errors, mean_velocity, .. } = outcome else { return None };
+    pub fn errors(&self, outcome: &SolverOutcome) -> Option<Norms> {
+        let SolverOutcome::Finished { errors, mean_velocity, .. } = outcome else { return None };
         let Quantity::MeanVelocity(exact) = &self.quantity else { return Some(*errors) };
         if mean_velocity.len() != exact.len() {
             return None;
@@ -161,12 +161,12 @@ impl Named for MatrixRow {
             "the tolerance has to be in ]0, 0.5["
         );
         match (self.order, self.constant) {
-            (Expected::Order(order), Some(constant)) => {
+            (ExpectedConvergence::Order(order), Some(constant)) => {
                 ensure!(order >= 1.0 && constant > 0.0, "order and constant have to be positive");
             }
-            (Expected::Order(_), None) => bail!("an order needs its error constant"),
-            (Expected::Word(_), Some(_)) => bail!("a constant needs an order"),
-            (Expected::Word(_), None) => {}
+            (ExpectedConvergence::Order(_), None) => bail!("an order needs its error constant"),
+            (ExpectedConvergence::Word(_), Some(_)) => bail!("a constant needs an order"),
+            (ExpectedConvergence::Word(_), None) => {}
         }
         ensure!(!self.theory.is_empty(), "no theory");
         let earns_its_place = !self.catches.is_empty() || self.witness.is_some();

@@ -32,14 +32,14 @@ pub struct Job {
 
 /// The runs of some rows.
 #[derive(Debug, Default)]
-pub struct Plan {
+pub struct RunPlan {
     /// Each once, the longest first.
     pub jobs: Vec<Job>,
     /// The position of the run for each row and level, coarse to fine.
     pub levels: Vec<Vec<usize>>,
 }
 
-impl Plan {
+impl RunPlan {
     /// The runs of rows, in full or quickly.
     ///
     /// # Errors
@@ -74,7 +74,7 @@ impl Plan {
             *at = position[*at];
         }
         let jobs = sequence.iter().map(|&job| jobs[job].clone()).collect();
-        Ok(Plan { jobs, levels })
+        Ok(RunPlan { jobs, levels })
     }
 }
 

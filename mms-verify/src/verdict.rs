@@ -18,9 +18,9 @@
 use std::fmt;
 
 use mms_convergence::{is_near, observed_order};
-use mms_lab::outcome::Outcome;
+use mms_lab::outcome::SolverOutcome;
 
-use super::matrix::{Expected, MatrixRow, Word};
+use super::matrix::{ExpectedConvergence, MatrixRow, Word};
 
 /// An observed order below this counts as none: orders in theory are 1 or more.
 const LEAST_ORDER: f64 = 0.5;
@@ -30,7 +30,7 @@ const ROUNDING: f64 = 5e-12;
 
 /// The verdict of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
+pub enum RowVerdict {
     /// The result that theory expects: the order and its error constant, or no error at all.
     Pass,
     /// A lower order, another constant, an error where there is none, or a run that was not started.
@@ -41,13 +41,13 @@ pub enum Verdict {
     DoesNotConverge,
 }
 
-impl fmt::Display for Verdict {
+impl fmt::Display for RowVerdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Verdict::Pass => "pass",
-            Verdict::Fail => "fail",
-            Verdict::NotAsymptotic => "not asymptotic",
-            Verdict::DoesNotConverge => "does not converge",
+            RowVerdict::Pass => "pass",
+            RowVerdict::Fail => "fail",
+            RowVerdict::NotAsymptotic => "not asymptotic",
+            RowVerdict::DoesNotConverge => "does not converge",
         })
     }
 }
@@ -61,9 +61,9 @@ pub struct Judgement {
     /// l2 over h^order or dt^order.
     pub constant: Option<f64>,
     /// The observed verdict.
-    pub verdict: Verdict,
+    pub verdict: RowVerdict,
     /// The expected verdict.
-    pub expected: Verdict,
+    pub expected: RowVerdict,
     /// The reason why the verdict is not the expected one.
     pub reason: Option<String>,
 }
@@ -89,23 +89,23 @@ impl Judgement {
 /// * `not asymptotic`: the order of l2 is above its expected order by more than the tolerance; or it differs by more than the
 ///   tolerance from the order of the pair before, if there is one.
 /// * `pass`.
-pub fn judge(row: &MatrixRow, levels: &[Outcome]) -> Judgement {
+pub fn judge(row: &MatrixRow, levels: &[SolverOutcome]) -> Judgement {
     let orders = match row.order {
-        Expected::Word(Word::Exact) => vec![[None; 3]; levels.len()],
+        ExpectedConvergence::Word(Word::Exact) => vec![[None; 3]; levels.len()],
         _ => orders(row, levels),
     };
     let constant = constant(row, levels);
     let expected = match row.order {
-        Expected::Word(Word::None) => Verdict::DoesNotConverge,
-        _ => Verdict::Pass,
+        ExpectedConvergence::Word(Word::None) => RowVerdict::DoesNotConverge,
+        _ => RowVerdict::Pass,
     };
     let (verdict, reason) = see(row, levels, &orders, constant);
     let reason = (verdict != expected).then_some(reason);
     Judgement { orders, constant, verdict, expected, reason }
 }
 
-fn orders(row: &MatrixRow, levels: &[Outcome]) -> Vec<[Option<f64>; 3]> {
-    let order = |[coarse, fine]: [&Outcome; 2], norm: usize| {
+fn orders(row: &MatrixRow, levels: &[SolverOutcome]) -> Vec<[Option<f64>; 3]> {
+    let order = |[coarse, fine]: [&SolverOutcome; 2], norm: usize| {
         let [e1, e2] = [row.errors(coarse)?, row.errors(fine)?];
         observed_order([e1[norm], e2[norm]], [row.size(coarse)?, row.size(fine)?])
     };
@@ -115,8 +115,8 @@ fn orders(row: &MatrixRow, levels: &[Outcome]) -> Vec<[Option<f64>; 3]> {
 }
 
 /// The error constant at the level for which the row states one.
-fn constant(row: &MatrixRow, levels: &[Outcome]) -> Option<f64> {
-    let Expected::Order(order) = row.order else { return None };
+fn constant(row: &MatrixRow, levels: &[SolverOutcome]) -> Option<f64> {
+    let ExpectedConvergence::Order(order) = row.order else { return None };
     let at = if row.quick > 0 { row.quick } else { levels.len() };
     let level = levels.get(at.checked_sub(1)?)?;
     let [_, l2, _] = row.errors(level)?;
@@ -125,65 +125,67 @@ fn constant(row: &MatrixRow, levels: &[Outcome]) -> Option<f64> {
 
 fn see(
     row: &MatrixRow,
-    levels: &[Outcome],
+    levels: &[SolverOutcome],
     orders: &[[Option<f64>; 3]],
     constant: Option<f64>,
-) -> (Verdict, String) {
+) -> (RowVerdict, String) {
     for level in levels {
-        if let Outcome::Refused { reason } = level {
-            return (Verdict::Fail, format!("not started: {reason}"));
+        if let SolverOutcome::Refused { reason } = level {
+            return (RowVerdict::Fail, format!("not started: {reason}"));
         }
     }
-    if row.order == Expected::Word(Word::Exact) {
+    if row.order == ExpectedConvergence::Word(Word::Exact) {
         return exact(row, levels);
     }
     for level in levels {
-        if let Outcome::Stopped { failure, .. } = level {
-            return (Verdict::DoesNotConverge, failure.clone());
+        if let SolverOutcome::Stopped { failure, .. } = level {
+            return (RowVerdict::DoesNotConverge, failure.clone());
         }
     }
     let Some(&[_, Some(l2), Some(linf)]) = orders.last() else {
-        return (Verdict::NotAsymptotic, "there is no order".into());
+        return (RowVerdict::NotAsymptotic, "there is no order".into());
     };
     let seen = format!("order {l2:.2} in l2, {linf:.2} in linf");
-    let Expected::Order(order) = row.order else {
-        let verdict = if l2 < LEAST_ORDER { Verdict::DoesNotConverge } else { Verdict::Fail };
+    let ExpectedConvergence::Order(order) = row.order else {
+        let verdict = if l2 < LEAST_ORDER { RowVerdict::DoesNotConverge } else { RowVerdict::Fail };
         return (verdict, seen);
     };
     if l2 < LEAST_ORDER {
-        return (Verdict::DoesNotConverge, seen);
+        return (RowVerdict::DoesNotConverge, seen);
     }
     if l2 < order - row.tolerance || linf < row.linf.unwrap_or(order) - row.tolerance {
-        return (Verdict::Fail, seen);
+        return (RowVerdict::Fail, seen);
     }
     let written = row.constant.unwrap_or(f64::NAN);
     if !constant.is_some_and(|constant| is_near(constant, written)) {
         let found = constant.map_or("none".into(), |constant| format!("{constant:.4e}"));
-        return (Verdict::Fail, format!("error constant {found}, not {written:.4e}"));
+        return (RowVerdict::Fail, format!("error constant {found}, not {written:.4e}"));
     }
     let before = orders.len().checked_sub(2).and_then(|at| orders[at][1]);
     let settled = before.is_none_or(|before| (l2 - before).abs() <= row.tolerance);
     if l2 > order + row.tolerance || !settled {
         let before = before.map_or(String::new(), |before| format!(" after {before:.2}"));
-        return (Verdict::NotAsymptotic, format!("order {l2:.2}{before} in l2"));
+        return (RowVerdict::NotAsymptotic, format!("order {l2:.2}{before} in l2"));
     }
-    (Verdict::Pass, seen)
+    (RowVerdict::Pass, seen)
 }
 
 /// A solution that the method represents exactly.
-fn exact(row: &MatrixRow, levels: &[Outcome]) -> (Verdict, String) {
+fn exact(row: &MatrixRow, levels: &[SolverOutcome]) -> (RowVerdict, String) {
     if levels.is_empty() {
-        return (Verdict::NotAsymptotic, "there is no level".into());
+        return (RowVerdict::NotAsymptotic, "there is no level".into());
     }
     for level in levels {
         let largest = match level {
-            Outcome::Finished { .. } => row.errors(level).map_or(f64::NAN, |errors| errors[2]),
-            Outcome::Stopped { failure, .. } => return (Verdict::Fail, failure.clone()),
-            Outcome::Refused { .. } => continue,
+            SolverOutcome::Finished { .. } => {
+                row.errors(level).map_or(f64::NAN, |errors| errors[2])
+            }
+            SolverOutcome::Stopped { failure, .. } => return (RowVerdict::Fail, failure.clone()),
+            SolverOutcome::Refused { .. } => continue,
         };
         if largest.is_nan() || largest > ROUNDING {
-            return (Verdict::Fail, format!("an error of {largest:.1e} in linf"));
+            return (RowVerdict::Fail, format!("an error of {largest:.1e} in linf"));
         }
     }
-    (Verdict::Pass, String::new())
+    (RowVerdict::Pass, String::new())
 }

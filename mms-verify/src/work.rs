@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 
 use mms_exact::Input;
 use mms_files::store::{Entry, Store, side_by_side};
-use mms_lab::outcome::{Outcome, Quantity, outcome};
+use mms_lab::outcome::{Quantity, SolverOutcome, outcome};
 use mms_options::field::Variant;
 use mms_options::method::Precision;
 use mms_runtime::scene::{Scene, Solvable};
@@ -17,18 +17,18 @@ use serde::de::DeserializeOwned;
 use super::plan::Job;
 
 /// A function that is called after every step of a run, with the step and the number of steps.
-pub type Step<'a> = dyn FnMut(usize, usize) + Send + 'a;
+pub type OnStep<'a> = dyn FnMut(usize, usize) + Send + 'a;
 
 /// A maker of runs.
-pub trait Bench: Sync {
+pub trait JobRunner: Sync {
     /// The result of a run, which is stored.
-    type Result: AsRef<Outcome> + Clone + Serialize + DeserializeOwned + Send;
+    type Result: AsRef<SolverOutcome> + Clone + Serialize + DeserializeOwned + Send;
 
     /// Makes a run, and calls `step` after each of its steps.
     ///
     /// # Errors
     /// A field of the gallery does not compile.
-    fn run(&self, job: &Job, step: &mut Step<'_>) -> anyhow::Result<Self::Result>;
+    fn run(&self, job: &Job, step: &mut OnStep<'_>) -> anyhow::Result<Self::Result>;
 }
 
 /// Receives messages while runs go on. Several threads may call it.
@@ -38,7 +38,7 @@ pub trait Watcher: Sync {
     /// A run has made some of its steps.
     fn step(&self, job: &Job, step: usize, steps: usize);
     /// A run has ended.
-    fn done(&self, job: &Job, outcome: &Outcome);
+    fn done(&self, job: &Job, outcome: &SolverOutcome);
     /// A file of the store was set aside.
     fn set_aside(&self, what: &str);
 }
@@ -47,7 +47,7 @@ pub trait Watcher: Sync {
 ///
 /// # Errors
 /// The store cannot be read or written, a field of the gallery does not compile.
-pub fn outcomes<B: Bench>(
+pub fn outcomes<B: JobRunner>(
     jobs: &[Job],
     store: &Store,
     threads: NonZero<usize>,
@@ -64,7 +64,7 @@ struct Work<'a, B> {
     watcher: &'a dyn Watcher,
 }
 
-impl<B: Bench> Work<'_, B> {
+impl<B: JobRunner> Work<'_, B> {
     /// The outcome of a run; `None`, if another process has claimed it and `wait` is false.
     fn outcome(&self, job: &Job, wait: bool) -> anyhow::Result<Option<B::Result>> {
         if let Some(outcome) = self.stored(job)? {
@@ -108,10 +108,10 @@ pub struct Fields {
 }
 
 /// Measures the quantity that the row of a run judges.
-impl Bench for Fields {
-    type Result = Outcome;
+impl JobRunner for Fields {
+    type Result = SolverOutcome;
 
-    fn run(&self, job: &Job, step: &mut Step<'_>) -> anyhow::Result<Outcome> {
+    fn run(&self, job: &Job, step: &mut OnStep<'_>) -> anyhow::Result<SolverOutcome> {
         self.with_scene(job, step, solve::<f32>, solve::<f64>)
     }
 }
@@ -124,9 +124,9 @@ pub fn watch_of(quantity: &Quantity) -> Watch {
     }
 }
 
-fn solve<T: Solvable>(job: &Job, scene: &Scene<T>, mut step: &mut Step<'_>) -> Outcome {
+fn solve<T: Solvable>(job: &Job, scene: &Scene<T>, mut step: &mut OnStep<'_>) -> SolverOutcome {
     match scene.run(&job.method, &job.study.cells[0], watch_of(&job.quantity), &mut step) {
-        Err(refusal) => Outcome::Refused { reason: refusal.to_string() },
+        Err(refusal) => SolverOutcome::Refused { reason: refusal.to_string() },
         Ok(run) => outcome(&run.level, run.details.as_ref(), &job.quantity),
     }
 }
@@ -139,9 +139,9 @@ impl Fields {
     pub fn with_scene<R>(
         &self,
         job: &Job,
-        step: &mut Step<'_>,
-        single: fn(&Job, &Scene<f32>, &mut Step<'_>) -> R,
-        double: fn(&Job, &Scene<f64>, &mut Step<'_>) -> R,
+        step: &mut OnStep<'_>,
+        single: fn(&Job, &Scene<f32>, &mut OnStep<'_>) -> R,
+        double: fn(&Job, &Scene<f64>, &mut OnStep<'_>) -> R,
     ) -> anyhow::Result<R> {
         let input = self.input(job)?;
         let set = &job.study.set;

@@ -51,7 +51,7 @@ impl Files for Folder<'_> {
 
 /// A verdict.
 #[derive(Serialize)]
-pub struct Verdict {
+pub struct JudgeReply {
     /// The document of `mms judge --json`.
     document: Judge,
     passes: bool,
@@ -66,7 +66,7 @@ pub fn judge(
     files: &[Attached],
     attached: &[u8],
     options: &JudgeOptions,
-) -> Result<Verdict, Mistake> {
+) -> Result<JudgeReply, Mistake> {
     let (mut all, mut rest) = (Vec::new(), attached);
     for file in files {
         let Some((bytes, after)) = rest.split_at_checked(file.size) else {
@@ -82,7 +82,7 @@ pub fn judge(
         true => of_table(&all, &orders)?,
         false => of_results(field, &Folder(all), options, &orders)?,
     };
-    Ok(Verdict {
+    Ok(JudgeReply {
         passes: report.verdict().is_good(),
         notes: report.notes.clone(),
         next: report.next.clone(),

@@ -349,7 +349,7 @@ pub const CRATES: &[Crate] = &[
             "mms-spec",
             "mms-symbolic",
         ],
-        layers: &["outcome pictures rows workbench", "trial", "extremes tradeoff"],
+        layers: &["outcome plausibility rows workbench", "trial", "extremes tradeoff"],
     },
     Crate {
         name: "mms-verify",

@@ -20,7 +20,7 @@ use mms_spec::quantity::Quantity;
 use mms_spec::suggest::advice;
 
 use super::format::Printing;
-use super::{Outcome, say, this_command, validate_output};
+use super::{CommandOutcome, say, this_command, validate_output};
 
 /// Measure the rounding errors of a field against arbitrary precision: of every quantity, in single, double and twice double
 /// precision, in the stable and the fast form, at the declared parameters and at extremes.
@@ -81,7 +81,7 @@ fn listed() -> String {
 }
 
 impl Accuracy {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(self) -> anyhow::Result<CommandOutcome> {
         let text = open(&self.field)?;
         self.output.as_deref().map_or(Ok(()), validate_output)?;
         let set = settings(&self.set)?;
@@ -125,7 +125,7 @@ impl Accuracy {
         }
         let held =
             report.broken().is_empty() && report.unmeasured().is_empty() && !report.is_unmeasured();
-        Ok(if held { Outcome::AsExpected } else { Outcome::Refuted })
+        Ok(if held { CommandOutcome::AsExpected } else { CommandOutcome::Refuted })
     }
 
     fn quantities(&self, compiled: &Compiled) -> anyhow::Result<Vec<Quantity>> {

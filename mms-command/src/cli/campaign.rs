@@ -27,7 +27,7 @@ use mms_spec::foreign;
 use super::figure::FigureFile;
 use super::format::{Detail, Printing};
 use super::observers::Interrupted;
-use super::{Outcome, next, print, replaced, say, this_command, validate_output};
+use super::{CommandOutcome, next, print, replaced, say, this_command, validate_output};
 use crate::provenance::{Input, Provenance};
 
 /// Run your own solver on the meshes of several studies, and judge each study as `mms judge` does.
@@ -89,9 +89,9 @@ pub struct Campaign {
 }
 
 impl Campaign {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(self) -> anyhow::Result<CommandOutcome> {
         self.output.as_deref().map_or(Ok(()), validate_output)?;
-        self.figure.hold()?;
+        self.figure.validate()?;
         let text = read::text(&self.file, FileKind::Campaign)?;
         let file = mms_campaign::read(&self.file.to_string_lossy(), &text)?;
         if self.suggest {
@@ -140,7 +140,7 @@ impl Campaign {
         work: &Work<'_>,
         canaries: Option<&CampaignPlan>,
         text: &str,
-    ) -> anyhow::Result<Outcome> {
+    ) -> anyhow::Result<CommandOutcome> {
         let plan = work.plan;
         let mut studies = self.judged(work)?;
         let Work { store, folder, watcher, .. } = *work;
@@ -164,7 +164,7 @@ impl Campaign {
         self.tell(&report, work)
     }
 
-    fn tell(&self, report: &Report<'_>, work: &Work<'_>) -> anyhow::Result<Outcome> {
+    fn tell(&self, report: &Report<'_>, work: &Work<'_>) -> anyhow::Result<CommandOutcome> {
         self.printing.print_in(self.detail, &View(report))?;
         let mut written = Vec::new();
         if let Some(folder) = &self.output {
@@ -179,14 +179,14 @@ impl Campaign {
             say("interrupted; finished runs are kept, and the same command continues");
         }
         Ok(match (report.has_failed(), report.is_refuted()) {
-            (true, _) => Outcome::RunFailed,
-            (false, true) => Outcome::Refuted,
-            (false, false) => Outcome::AsExpected,
+            (true, _) => CommandOutcome::RunFailed,
+            (false, true) => CommandOutcome::Refuted,
+            (false, false) => CommandOutcome::AsExpected,
         })
     }
 
     /// Shows the runs, and which of them are done.
-    fn show(&self, work: &Work<'_>) -> anyhow::Result<Outcome> {
+    fn show(&self, work: &Work<'_>) -> anyhow::Result<CommandOutcome> {
         let describe = |planned: &PlannedStudy, job: &Job, is_done: bool, words: Vec<String>| {
             let line = words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
             let state = if is_done { "done" } else { "to do" };
@@ -207,7 +207,7 @@ impl Campaign {
     }
 
     /// Prints a command for each run that is not done.
-    fn commands(&self, work: &Work<'_>) -> anyhow::Result<Outcome> {
+    fn commands(&self, work: &Work<'_>) -> anyhow::Result<CommandOutcome> {
         let [file, store] =
             [&self.file, &self.folder()].map(|it| it.to_string_lossy().into_owned());
         let head = ["campaign".to_owned(), file, format!("--store={store}")];
@@ -225,7 +225,7 @@ impl Campaign {
         work: &Work<'_>,
         none: &str,
         say_of: impl Fn(&PlannedStudy, &Job, bool) -> anyhow::Result<Option<(String, ListedRun)>>,
-    ) -> anyhow::Result<Outcome> {
+    ) -> anyhow::Result<CommandOutcome> {
         let (mut lines, mut documents) = (Vec::new(), Vec::new());
         for planned in &work.plan.studies {
             for job in &planned.jobs {
@@ -242,10 +242,10 @@ impl Campaign {
             let document = CampaignRuns { runs: documents };
             self.printing.print_without_table(&lines.join("\n"), &document)?;
         }
-        Ok(Outcome::AsExpected)
+        Ok(CommandOutcome::AsExpected)
     }
 
-    fn propose(&self, file: &File) -> anyhow::Result<Outcome> {
+    fn propose(&self, file: &File) -> anyhow::Result<CommandOutcome> {
         let Some(can) = &file.solver.can else {
             bail!(
                 "`{}`: `--suggest` needs the abilities of the solver; state them in [solver], as in can = {{ dimensions = \

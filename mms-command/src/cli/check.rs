@@ -15,7 +15,7 @@ use mms_options::field::{Variant, open};
 use mms_spec::diagnostic::{Diagnostic, render_styled};
 use mms_spec::foreign::Foreign;
 
-use super::{Outcome, print, print_json, say, say_styled};
+use super::{CommandOutcome, print, print_json, say, say_styled};
 
 /// Check field files: find mistakes, prove the boundary claims and J > 0, and compare closed forms with derived ones.
 ///
@@ -61,9 +61,9 @@ pub struct Check {
 }
 
 impl Check {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(self) -> anyhow::Result<CommandOutcome> {
         let options = self.variant.options(self.selection()?);
-        let mut worst = Outcome::AsExpected;
+        let mut worst = CommandOutcome::AsExpected;
         let mut documents = Vec::new();
         for file in &self.files {
             let path = Foreign::from(file.as_str());
@@ -79,7 +79,7 @@ impl Check {
             };
             documents.push(document);
             worst = match (worst, outcome) {
-                (Outcome::BadInput, _) | (_, Outcome::AsExpected) => worst,
+                (CommandOutcome::BadInput, _) | (_, CommandOutcome::AsExpected) => worst,
                 _ => outcome,
             };
         }
@@ -99,30 +99,34 @@ impl Check {
         Ok(Selection { set, freeze, ..Selection::default() })
     }
 
-    fn report_unreadable(&self, path: &Foreign, error: &anyhow::Error) -> (Outcome, CheckedFile) {
+    fn report_unreadable(
+        &self,
+        path: &Foreign,
+        error: &anyhow::Error,
+    ) -> (CommandOutcome, CheckedFile) {
         if !self.json {
             say(format_args!("error: {error:#}"));
         }
-        (Outcome::BadInput, mms_check::unreadable(path, format!("{error:#}")))
+        (CommandOutcome::BadInput, mms_check::unreadable(path, format!("{error:#}")))
     }
 
     fn report_failure(
         &self,
         path: &Foreign,
         failure: &Failure,
-    ) -> anyhow::Result<(Outcome, CheckedFile)> {
+    ) -> anyhow::Result<(CommandOutcome, CheckedFile)> {
         if !self.json {
             say_styled(&failure.styled());
             print(&format!("{}: {} mistake(s)", path.shown(), failure.diagnostics.len()))?;
         }
-        Ok((Outcome::BadInput, mms_check::mistaken(path, failure)))
+        Ok((CommandOutcome::BadInput, mms_check::mistaken(path, failure)))
     }
 
     fn report(
         &self,
         path: &Foreign,
         compiled: &Arc<Compiled>,
-    ) -> anyhow::Result<(Outcome, CheckedFile)> {
+    ) -> anyhow::Result<(CommandOutcome, CheckedFile)> {
         let asked = CheckOptions { solve: self.solve, is_verbose: self.verbose };
         let mut report = mms_check::check(path, compiled, asked);
         let has_body = !compiled.field.domain.body.is_nothing();
@@ -145,7 +149,8 @@ impl Check {
             print(&text)?;
         }
         report.document.next_command = next;
-        let outcome = if report.passes { Outcome::AsExpected } else { Outcome::Refuted };
+        let outcome =
+            if report.passes { CommandOutcome::AsExpected } else { CommandOutcome::Refuted };
         Ok((outcome, report.document))
     }
 }

@@ -27,7 +27,7 @@ use mms_judge::results::Results;
 use mms_judge::table::{ExpectedOrders, NamedOrder};
 use mms_options::field::{Variant, open};
 use mms_options::method::{MethodOptions, finite, length, positive};
-use mms_report::{Diagnosed, Hypotheses, Plan, Step};
+use mms_report::{Diagnosed, DiagnosisPlan, DiagnosisStep, Hypotheses};
 use mms_runtime::Method;
 use mms_runtime::scene::Scene;
 use mms_spec::own::Own;
@@ -36,7 +36,7 @@ use mms_spec::quantity::Quantity;
 use super::format::{Detail, Printing};
 use super::naming::Naming;
 use super::next::typed;
-use super::{Outcome, print, replaced, say, this_command, validate_output};
+use super::{CommandOutcome, print, replaced, say, this_command, validate_output};
 
 /// Name the mistake in a solver from the error that it makes.
 ///
@@ -79,7 +79,7 @@ pub struct Diagnose {
         requires = "field",
         conflicts_with_all = ["files", "list"]
     )]
-    plan: Option<Vec<Step>>,
+    plan: Option<Vec<DiagnosisStep>>,
     /// The quantities to compare, by name or symbol, as for `mms judge`: u, v, F; by default all that the files contain.
     /// `stress` compares the material law alone, from a table of F and P, S, sigma or tau; `tangent` does so from a table of
     /// F and DDSDDE.
@@ -191,7 +191,7 @@ fn sign(text: &str) -> Result<f64, &'static str> {
 }
 
 impl Diagnose {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(self) -> anyhow::Result<CommandOutcome> {
         self.output.as_deref().map_or(Ok(()), validate_output)?;
         let variation = if self.affine { Variation::Affine } else { Variation::Nothing };
         let options = Options { variation, ..self.variant.options(Selection::default()) };
@@ -200,12 +200,12 @@ impl Diagnose {
         if self.list {
             let report = Hypotheses { field: &input.name, all: scene::hypotheses(&scene) };
             self.printing.print_in(self.detail, &report)?;
-            return Ok(Outcome::AsExpected);
+            return Ok(CommandOutcome::AsExpected);
         }
         if let Some(steps) = &self.plan {
-            let plan = Plan::new(&input.name, steps, scene::hypotheses(&scene));
+            let plan = DiagnosisPlan::new(&input.name, steps, scene::hypotheses(&scene));
             self.printing.print(&plan)?;
-            return Ok(Outcome::AsExpected);
+            return Ok(CommandOutcome::AsExpected);
         }
         let provenance = this_command("diagnose", input.provenance(&self.set));
         let mut exact = Exact::new(input, &self.set)?;
@@ -283,8 +283,8 @@ impl Diagnose {
             }
         }
         Ok(match diagnosis.finding {
-            DiagnosisFinding::Nothing => Outcome::AsExpected,
-            DiagnosisFinding::Named | DiagnosisFinding::Unexplained => Outcome::Refuted,
+            DiagnosisFinding::Nothing => CommandOutcome::AsExpected,
+            DiagnosisFinding::Named | DiagnosisFinding::Unexplained => CommandOutcome::Refuted,
         })
     }
 

@@ -22,7 +22,7 @@ use mms_spec::foreign::{self, Foreign};
 use mms_spec::own::Own;
 
 use self::folder::{State, compare, write};
-use super::{Outcome, print, print_json, say};
+use super::{CommandOutcome, print, print_json, say};
 
 /// Write the source code of a field for your solver, in its language: all quantities, or only those that it needs.
 ///
@@ -132,7 +132,7 @@ impl TypedValueParser for Targets {
 }
 
 impl Emit {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(self) -> anyhow::Result<CommandOutcome> {
         let Some(target) = self.target else {
             let names: Vec<_> = TARGETS.iter().map(|target| target.name).collect();
             bail!("name the language with `--target`: {}", names.join(", "));
@@ -161,7 +161,7 @@ impl Emit {
             None => FIELDS.iter().map(|entry| entry.name).collect(),
         };
         let mut documents = Vec::new();
-        let mut outcome = Outcome::AsExpected;
+        let mut outcome = CommandOutcome::AsExpected;
         for name in names {
             let (name, bundle) = emitted(name)?;
             let folder = self.output.as_ref().map(|it| self.folder(it, name.raw())).transpose()?;
@@ -171,7 +171,7 @@ impl Emit {
                 Some(folder) => written(&folder, &bundle)?,
             };
             if delivered.is_stale() {
-                outcome = Outcome::Refuted;
+                outcome = CommandOutcome::Refuted;
             }
             if self.json {
                 documents.push(delivered.document(&name, target, &bundle));
@@ -186,7 +186,7 @@ impl Emit {
             (true, false) => print_json(&documents[0])?,
             (false, _) => {}
         }
-        if outcome == Outcome::Refuted {
+        if outcome == CommandOutcome::Refuted {
             say(format_args!("write them anew: {}", command_without_check()));
         }
         Ok(outcome)

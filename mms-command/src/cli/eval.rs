@@ -23,7 +23,7 @@ use serde::{Serialize, Serializer};
 use serde_json::value::RawValue;
 
 use super::naming::Naming;
-use super::{Outcome, print, print_json, say};
+use super::{CommandOutcome, print, print_json, say};
 
 /// Evaluate quantities of a field at points.
 ///
@@ -181,7 +181,7 @@ struct Outside {
 }
 
 impl Eval {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(self) -> anyhow::Result<CommandOutcome> {
         let own = open(&self.field)?.own_quantities();
         let quantities = evaluated(&own, &self.quantity)?;
         let mut derived = quantities.clone();
@@ -202,7 +202,7 @@ impl Eval {
         &self,
         input: &Input,
         quantities: &[Quantity],
-    ) -> anyhow::Result<Outcome> {
+    ) -> anyhow::Result<CommandOutcome> {
         let given = self.time_text(input)?;
         let time = T::read(given).with_context(|| format!("`--time {given}`"))?;
         if !time.near().is_finite() {
@@ -257,7 +257,7 @@ impl Eval {
         } else {
             print(&text(&records))?;
         }
-        Ok(Outcome::AsExpected)
+        Ok(CommandOutcome::AsExpected)
     }
 
     /// The components of a tensor beyond the dimension of the field, if they were requested.

@@ -4,11 +4,11 @@ use anyhow::bail;
 use clap::Args;
 use mms_documents::explain::{Explain as Document, Term};
 use mms_report::Shown;
-use mms_report::table::Table;
+use mms_report::table::TextTable;
 use mms_spec::foreign::shown;
 use mms_spec::suggest::advice;
 
-use super::Outcome;
+use super::CommandOutcome;
 use super::format::Printing;
 
 /// The page, which is also read as such.
@@ -49,7 +49,7 @@ fn plain_text(text: &str) -> String {
 }
 
 impl Explain {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(self) -> anyhow::Result<CommandOutcome> {
         let all = entries();
         // Several words are one term, if there is such a term.
         let whole = self.terms.join(" ");
@@ -71,7 +71,7 @@ impl Explain {
         let is_list = asked.is_empty();
         let terms = if is_list { all } else { terms };
         self.printing.print(&Explained { terms, is_list })?;
-        Ok(Outcome::AsExpected)
+        Ok(CommandOutcome::AsExpected)
     }
 }
 
@@ -100,8 +100,8 @@ impl Shown for Explained {
         }
     }
 
-    fn tables(&self) -> Vec<Table> {
-        let mut table = Table::new("words", ["word", "meaning"]);
+    fn tables(&self) -> Vec<TextTable> {
+        let mut table = TextTable::new("words", ["word", "meaning"]);
         for it in &self.terms {
             table.add_row([&it.term, &it.text]);
         }

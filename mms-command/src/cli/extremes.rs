@@ -12,13 +12,13 @@ use mms_lab::extremes::rows::{ExtremeSetting, rows};
 use mms_lab::extremes::stable;
 use mms_lab::extremes::subject::Subject;
 use mms_lab::extremes::theory::{Elasticity, courant};
-use mms_lab::extremes::verdict::{Declared, Seen, judge};
+use mms_lab::extremes::verdict::{Declared, RunResult, judge};
 use mms_lab::rows::Named as _;
 use mms_lab::tradeoff::setting::Setting;
 use mms_options::field::Motion;
 use mms_options::method::{Arithmetic, MethodOptions, Precision};
 use mms_report::Shown as _;
-use mms_report::extremes::{Judged, Report, Stability};
+use mms_report::extremes::{JudgedExtreme, Report, Stability};
 use mms_runtime::scene::usual_cells;
 use mms_runtime::study::Observer;
 use mms_runtime::{Division, IntegratorName, Method, Transfer};
@@ -26,7 +26,7 @@ use mms_spec::suggest::advice;
 use mms_spec::twin::Twin;
 
 use super::format::Printing;
-use super::{Outcome, print, say, this_command, validate_output};
+use super::{CommandOutcome, print, say, this_command, validate_output};
 use crate::session::progress::Progress;
 
 /// Run a field at the limits of the built-in solver: each run must meet its bound, or stop with the right diagnosis.
@@ -67,7 +67,7 @@ pub struct Extremes {
 const STABILITY: &str = "stability";
 
 impl Extremes {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(self) -> anyhow::Result<CommandOutcome> {
         let all = rows()?;
         let wanted = self.select(&all)?;
         self.output.as_deref().map_or(Ok(()), validate_output)?;
@@ -86,20 +86,20 @@ impl Extremes {
         let usual = Division::Uniform(usual_cells(dimension));
         let seen = declared.run(&method, usual, arithmetic.precision, &mut progress.of(usual))?;
         let declared_error = match seen {
-            Seen::Ended { l2, cell_size, least_jacobian, .. } if l2 > 0.0 => {
+            RunResult::Ended { l2, cell_size, least_jacobian, .. } if l2 > 0.0 => {
                 Declared { l2, cell_size, least_jacobian }
             }
-            Seen::Ended { .. } => bail!(
+            RunResult::Ended { .. } => bail!(
                 "the method makes no error on `{}`, so there is nothing to compare with: choose another one",
                 declared.input.name.shown()
             ),
-            Seen::Stopped { reason, .. } | Seen::LeftOut { reason } => {
+            RunResult::Stopped { reason, .. } | RunResult::LeftOut { reason } => {
                 progress.finish();
                 say(format_args!(
                     "error: `{}` does not run as declared: {reason}",
                     declared.input.name.shown()
                 ));
-                return Ok(Outcome::RunFailed);
+                return Ok(CommandOutcome::RunFailed);
             }
         };
         let mut judged = Vec::new();
@@ -130,7 +130,7 @@ impl Extremes {
             }
         }
         let expected = report.unexpected().is_empty();
-        Ok(if expected { Outcome::AsExpected } else { Outcome::Refuted })
+        Ok(if expected { CommandOutcome::AsExpected } else { CommandOutcome::Refuted })
     }
 
     /// How the field is taken.
@@ -166,10 +166,10 @@ impl Extremes {
         base: &Method,
         declared: Declared,
         progress: &Progress,
-    ) -> anyhow::Result<Judged> {
+    ) -> anyhow::Result<JudgedExtreme> {
         let mut arithmetic = self.method.arithmetic;
         let (setting, seen) = match Subject::new(&self.field, &self.options()?, Some(row))? {
-            Err(reason) => (row.name.clone(), Seen::LeftOut { reason }),
+            Err(reason) => (row.name.clone(), RunResult::LeftOut { reason }),
             Ok(subject) => {
                 let allow_unstable = self.method.allow_unstable;
                 let (method, cells) = subject.method(base, row, self.quick, allow_unstable);
@@ -193,7 +193,7 @@ impl Extremes {
         if self.quiet_terminal() {
             progress.say(&format!("{}: {}", row.name, verdict.name()));
         }
-        Ok(Judged { row: row.clone(), setting, seen, verdict })
+        Ok(JudgedExtreme { row: row.clone(), setting, seen, verdict })
     }
 
     fn quiet_terminal(&self) -> bool {

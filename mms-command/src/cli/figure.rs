@@ -10,7 +10,7 @@ use mms_report::page::figure;
 use mms_report::plot::{Figure, FileFormat, Width};
 use mms_spec::foreign;
 
-use super::{Outcome, print, refuse_overwriting, say};
+use super::{CommandOutcome, print, refuse_overwriting, say};
 
 /// The figure of a result.
 #[derive(Args, Clone, Debug)]
@@ -49,7 +49,7 @@ fn drawn() -> impl TypedValueParser<Value = PathBuf> {
 
 impl FigureFile {
     /// Checks that the file can be written; fails before any work is done.
-    pub fn hold(&self) -> anyhow::Result<()> {
+    pub fn validate(&self) -> anyhow::Result<()> {
         let Some(path) = &self.figure else { return Ok(()) };
         try_to_write(path)
             .with_context(|| format!("cannot write `--figure {}`", foreign::path(path)))
@@ -69,12 +69,12 @@ impl FigureFile {
 }
 
 impl Plot {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(self) -> anyhow::Result<CommandOutcome> {
         refuse_overwriting("--output", &self.output, &self.files)?;
         let figure = figure::read(&self.files)?;
         write(&self.output, &figure, self.width)?;
         print(&format!("wrote {}", foreign::path(&self.output)))?;
-        Ok(Outcome::AsExpected)
+        Ok(CommandOutcome::AsExpected)
     }
 }
 

@@ -18,7 +18,7 @@ use mms_spec::foreign;
 
 use super::figure::FigureFile;
 use super::format::{Detail, Printing};
-use super::{Outcome, print, replaced, this_command, validate_output};
+use super::{CommandOutcome, print, replaced, this_command, validate_output};
 use crate::provenance::Input;
 
 /// Judge the errors of any solver: compute the observed orders with their intervals, search for hidden terms of lower order,
@@ -95,9 +95,9 @@ pub struct Judge {
 }
 
 impl Judge {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(self) -> anyhow::Result<CommandOutcome> {
         self.output.as_deref().map_or(Ok(()), validate_output)?;
-        self.figure.hold()?;
+        self.figure.validate()?;
         match (&self.errors, &self.field) {
             (Some(table), _) => self.errors(table),
             (None, Some(field)) => self.results(field),
@@ -105,7 +105,7 @@ impl Judge {
         }
     }
 
-    fn errors(&self, table: &Path) -> anyhow::Result<Outcome> {
+    fn errors(&self, table: &Path) -> anyhow::Result<CommandOutcome> {
         let text = read::text(table, FileKind::Errors)?;
         let (measured, notes) = table::read(table, &text, &self.orders(), self.method.as_deref())?;
         let source = foreign::path(table);
@@ -119,7 +119,7 @@ impl Judge {
     }
 
     /// Prints a report, and writes it if an option requests files.
-    fn tell(&self, report: &Judgements) -> anyhow::Result<Outcome> {
+    fn tell(&self, report: &Judgements) -> anyhow::Result<CommandOutcome> {
         self.printing.print_in(self.detail, &View(report))?;
         let mut written = Vec::new();
         if let Some(folder) = &self.output {
@@ -140,10 +140,10 @@ impl Judge {
 }
 
 /// The exit code of a verdict.
-fn outcome(verdict: Verdict) -> Outcome {
+fn outcome(verdict: Verdict) -> CommandOutcome {
     match verdict {
-        Verdict::Pass | Verdict::Exact => Outcome::AsExpected,
-        Verdict::Fail | Verdict::NotAsymptotic => Outcome::Refuted,
-        Verdict::NoEvidence => Outcome::BadInput,
+        Verdict::Pass | Verdict::Exact => CommandOutcome::AsExpected,
+        Verdict::Fail | Verdict::NotAsymptotic => CommandOutcome::Refuted,
+        Verdict::NoEvidence => CommandOutcome::BadInput,
     }
 }

@@ -6,11 +6,11 @@ use mms_documents::list::{self as documents, ListedField, ListedStudy};
 use mms_exact::gallery;
 use mms_harness::profile;
 use mms_report::Shown;
-use mms_report::table::Table;
+use mms_report::table::TextTable;
 use mms_runtime::{FormulationName, IntegratorName, ShapeName, Transfer};
 use mms_spec::{Claim, FORMS, FieldSpec, PRECISIONS, StudySpec};
 
-use super::Outcome;
+use super::CommandOutcome;
 use super::format::Printing;
 
 /// List the names that other commands accept: fields, materials, methods, and codes whose files have a profile.
@@ -25,9 +25,9 @@ pub struct List {
 }
 
 impl List {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(self) -> anyhow::Result<CommandOutcome> {
         self.printing.print(&Listing::new())?;
-        Ok(Outcome::AsExpected)
+        Ok(CommandOutcome::AsExpected)
     }
 }
 
@@ -54,9 +54,9 @@ impl Listing {
     }
 
     /// A row for each field, to choose from.
-    fn table(&self) -> Table {
+    fn table(&self) -> TextTable {
         let header = ["field", "dimension", "material", "body", "faces", "starts", "title"];
-        let mut table = Table::new("fields of the gallery", header);
+        let mut table = TextTable::new("fields of the gallery", header);
         for field in &self.fields {
             table.add_row([
                 field.name.shown(),
@@ -82,8 +82,8 @@ impl Shown for Listing {
         format!("{}\n{}", self.table(), self.words.iter().map(line).collect::<String>())
     }
 
-    fn tables(&self) -> Vec<Table> {
-        let mut words = Table::new("words of options", ["kind", "words"]);
+    fn tables(&self) -> Vec<TextTable> {
+        let mut words = TextTable::new("words of options", ["kind", "words"]);
         for (kind, all) in &self.words {
             words.add_row([(*kind).to_owned(), all.join(", ")]);
         }

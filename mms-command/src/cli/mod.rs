@@ -105,7 +105,7 @@ enum Command {
 
 /// The outcome of a command that did its work.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Outcome {
+enum CommandOutcome {
     /// Everything is as expected.
     AsExpected,
     /// A claim, check or order failed.
@@ -125,18 +125,18 @@ pub fn run() -> u8 {
         let style = anstyle::AnsiColor::Red.on_default().bold();
         let error = foreign::lines(&format!("{error:#}"));
         say_styled(&format!("{style}error{style:#}: {error}"));
-        Outcome::BadInput
+        CommandOutcome::BadInput
     });
     match outcome {
-        Outcome::AsExpected => 0,
-        Outcome::Refuted => 1,
-        Outcome::BadInput => 2,
-        Outcome::RunFailed => 3,
+        CommandOutcome::AsExpected => 0,
+        CommandOutcome::Refuted => 1,
+        CommandOutcome::BadInput => 2,
+        CommandOutcome::RunFailed => 3,
     }
 }
 
 /// Does what the command line asks for.
-fn answer() -> anyhow::Result<Outcome> {
+fn answer() -> anyhow::Result<CommandOutcome> {
     let arguments = saved::expand(arguments().into_iter())?;
     let parsed = match parse(&arguments) {
         Ok(parsed) => parsed,
@@ -147,7 +147,7 @@ fn answer() -> anyhow::Result<Outcome> {
         anyhow::bail!("`{LIMIT}={}`: expected one of {}", foreign::shown(&word), names.join(", "));
     }
     match parsed.command {
-        None => study::main_job(),
+        None => study::default_study(),
         Some(Command::Demo(demo)) => demo.run(),
         Some(Command::List(list)) => list.run(),
         Some(Command::Show(show)) => show.run(),
@@ -207,11 +207,11 @@ fn parse(arguments: &[OsString]) -> Result<Arguments, clap::Error> {
 }
 
 /// Says what is wrong with a command line; or the help, or the version, that it asks for.
-fn refused(arguments: &[OsString], error: &clap::Error) -> anyhow::Result<Outcome> {
+fn refused(arguments: &[OsString], error: &clap::Error) -> anyhow::Result<CommandOutcome> {
     if !error.use_stderr() {
         let printed = error.print().and_then(|()| io::stdout().flush());
         printed_to_the_end(printed)?;
-        return Ok(Outcome::AsExpected);
+        return Ok(CommandOutcome::AsExpected);
     }
     // The message quotes words of the command line, so they are escaped first.
     let shown: Vec<_> =
@@ -219,7 +219,7 @@ fn refused(arguments: &[OsString], error: &clap::Error) -> anyhow::Result<Outcom
     let of_shown = parse(&shown).err().filter(clap::Error::use_stderr);
     let text = of_shown.as_ref().unwrap_or(error).render();
     say_styled(text.ansi().to_string().trim_end());
-    Ok(Outcome::BadInput)
+    Ok(CommandOutcome::BadInput)
 }
 
 /// Lets the value of an option begin with a sign, as in `--jitter -1`: a wrong value is then reported as such, and not as an

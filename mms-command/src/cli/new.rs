@@ -15,7 +15,7 @@ use mms_options::field::open;
 use mms_spec::foreign::{self, shown};
 use mms_spec::{field_name, section};
 
-use super::{Outcome, print};
+use super::{CommandOutcome, print};
 
 /// Where fields are kept, in this project and in others.
 const FIELDS: &str = "fields";
@@ -60,7 +60,7 @@ fn bodies() -> impl TypedValueParser<Value = Body> {
 }
 
 impl New {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(self) -> anyhow::Result<CommandOutcome> {
         field_name::validate(&self.name).map_err(|mistake| anyhow!(mistake))?;
         let dimension = usize::from(self.dimension);
         if self.shape == Body::Annulus && dimension != 2 {
@@ -85,7 +85,7 @@ impl New {
         };
         write_new(&path, &section.unwrap_or_else(|| template.text()))?;
         print(&self.next_steps(&shown))?;
-        Ok(Outcome::AsExpected)
+        Ok(CommandOutcome::AsExpected)
     }
 
     fn folder(&self) -> PathBuf {

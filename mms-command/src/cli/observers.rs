@@ -14,7 +14,7 @@ use mms_campaign::supervisor::signals;
 use mms_runtime::study::{Checkpoint, Frame, Observer, Record};
 use signal_hook::flag::{register, register_conditional_shutdown};
 
-use crate::checkpoint::{Found, Keeper};
+use crate::checkpoint::{CheckpointWriter, StoredCheckpoint};
 use crate::history::History;
 use crate::session::progress::OfRun;
 use crate::vtk::Writer;
@@ -52,8 +52,8 @@ pub struct Observers<'a> {
     pub progress: OfRun<'a>,
     pub vtk: Option<Writer>,
     pub history: Option<History>,
-    pub keeper: Option<Keeper>,
-    pub resumed: Option<Found>,
+    pub keeper: Option<CheckpointWriter>,
+    pub resumed: Option<StoredCheckpoint>,
     pub interrupted: Interrupted,
 }
 

@@ -11,7 +11,7 @@ use crate::provenance::Provenance;
 
 /// The origin that a document names.
 #[derive(Deserialize)]
-struct Found {
+struct OldDocument {
     provenance: Provenance,
 }
 
@@ -23,7 +23,7 @@ pub fn tell(folder: &Path, name: &str, new: &Provenance) {
     }
     // No document of these commands is no earlier result.
     let Ok(text) = read::text(&file, FileKind::Result) else { return };
-    let Ok(Found { provenance: old }) = serde_json::from_str(&text) else { return };
+    let Ok(OldDocument { provenance: old }) = serde_json::from_str(&text) else { return };
     if (&old.kind, &old.input.field) != (&new.kind, &new.input.field) {
         let of = old.input.field.map_or(String::new(), |field| format!(" of {}", shown(&field)));
         say(format_args!(

@@ -11,7 +11,7 @@ use mms_report::page::gallery::Listed;
 use mms_report::page::{self, Page, Verdicts};
 use mms_spec::foreign;
 
-use super::{Outcome, print, refuse_overwriting, say};
+use super::{CommandOutcome, print, refuse_overwriting, say};
 
 /// Write one HTML page, without other files, from all results in a folder.
 ///
@@ -39,13 +39,17 @@ pub struct Report {
 }
 
 impl Report {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(self) -> anyhow::Result<CommandOutcome> {
         let verdicts = match (&self.gallery, &self.folder) {
             (Some(folder), _) => gallery(folder)?,
             (None, Some(folder)) => self.results(folder)?,
             (None, None) => bail!("expected a folder with results"),
         };
-        Ok(if verdicts.are_expected() { Outcome::AsExpected } else { Outcome::Refuted })
+        Ok(if verdicts.are_expected() {
+            CommandOutcome::AsExpected
+        } else {
+            CommandOutcome::Refuted
+        })
     }
 
     /// Writes the page of a folder.
@@ -72,7 +76,7 @@ fn gallery(folder: &Path) -> anyhow::Result<Verdicts> {
     let mut fields = Vec::new();
     for (entry, field) in FIELDS.iter().zip(gallery::fields()) {
         say(entry.name);
-        let page = page::gallery::page(entry, &super::study::Study::anywhere)?;
+        let page = page::gallery::page(entry, &super::study::Study::without_machine)?;
         write(entry.name, page.html())?;
         fields.push(Listed { field, verdicts: page.verdicts(), thumbnail: page.thumbnail() });
     }

@@ -14,7 +14,7 @@ use mms_files::write::is_same;
 use mms_files::write::{pretty, write_files};
 use mms_options::field::{Motion, find};
 use mms_options::method::{MethodOptions, Precision};
-use mms_report::Refused;
+use mms_report::UnstartedLevel;
 use mms_report::run::Run as Report;
 use mms_runtime::scene::usual_cells;
 use mms_runtime::study::Watch;
@@ -22,8 +22,8 @@ use mms_runtime::{Division, Method};
 use mms_spec::foreign;
 
 use super::observers::{Interrupted, Observers};
-use super::{Outcome, print, print_json, refuse_overwriting, say, validate_output};
-use crate::checkpoint::{Found, Head, Keeper};
+use super::{CommandOutcome, print, print_json, refuse_overwriting, say, validate_output};
+use crate::checkpoint::{CheckpointWriter, Head, StoredCheckpoint};
 use crate::history::History;
 use crate::provenance;
 use crate::session::progress::Progress;
@@ -73,7 +73,7 @@ pub struct Run {
 }
 
 impl Run {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(self) -> anyhow::Result<CommandOutcome> {
         let input = find(&self.field, &self.method.variant(&self.motion))?;
         let dimension = input.compiled.field.dimension;
         let (method, note) = self.method.method_for(&input, &self.set)?;
@@ -99,7 +99,7 @@ impl Run {
         };
         progress.finish();
         let kept = followers.end();
-        let run = run.map_err(|reason| Refused { cells, reason });
+        let run = run.map_err(|reason| UnstartedLevel { cells, reason });
         let report = Report {
             field: input.name.clone(),
             title: input.compiled.field.title.clone(),
@@ -110,12 +110,12 @@ impl Run {
         };
         let run = match &report.run {
             Ok(run) => run,
-            Err(Refused { reason, .. }) => {
+            Err(UnstartedLevel { reason, .. }) => {
                 say(format_args!("error: `{}` cannot be run: {reason}", input.name.shown()));
                 if self.json {
                     print_json(&report.document())?;
                 }
-                return Ok(Outcome::RunFailed);
+                return Ok(CommandOutcome::RunFailed);
             }
         };
         // A failure to write files comes after printing, and loses no printed result.
@@ -134,10 +134,10 @@ impl Run {
         }
         kept?;
         Ok(match &run.level.errors {
-            Ok(_) => Outcome::AsExpected,
+            Ok(_) => CommandOutcome::AsExpected,
             Err(failure) => {
                 say(format_args!("error: {failure}"));
-                Outcome::RunFailed
+                CommandOutcome::RunFailed
             }
         })
     }
@@ -182,7 +182,11 @@ impl Run {
         head: Head,
         progress: &'a Progress,
     ) -> anyhow::Result<Observers<'a>> {
-        let resumed = self.resume.as_deref().map(|path| Found::open(path, memory())).transpose()?;
+        let resumed = self
+            .resume
+            .as_deref()
+            .map(|path| StoredCheckpoint::open(path, memory()))
+            .transpose()?;
         if let (Some(path), Some(found)) = (&self.resume, &resumed)
             && found.head.key != head.key
         {
@@ -207,7 +211,9 @@ impl Run {
         });
         let history = history.transpose()?;
         let keeper = self.checkpoint.as_deref();
-        let keeper = keeper.map(|path| Keeper::new(path, self.every as usize, head)).transpose()?;
+        let keeper = keeper
+            .map(|path| CheckpointWriter::new(path, self.every as usize, head))
+            .transpose()?;
         let interrupted = Interrupted::listen()?;
         Ok(Observers { progress: progress.of(cells), vtk, history, keeper, resumed, interrupted })
     }

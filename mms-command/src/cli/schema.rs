@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::{Outcome, print_json};
+use super::{CommandOutcome, print_json};
 use crate::schema;
 
 /// Print the JSON Schema of field files, of material files, or of a document that `--json` prints.
@@ -20,12 +20,12 @@ pub struct Schema {
 }
 
 impl Schema {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(self) -> anyhow::Result<CommandOutcome> {
         print_json(&match self.document {
             Some(name) => schema::documents::document(&name)?,
             None if self.material => schema::material(),
             None => schema::field(),
         })?;
-        Ok(Outcome::AsExpected)
+        Ok(CommandOutcome::AsExpected)
     }
 }

@@ -25,7 +25,7 @@ use mms_spec::quantity::Quantity;
 use mms_stability::resting::Material;
 use mms_stability::wavelength::shortest_wavelength;
 
-use super::{Outcome, print, print_json, say};
+use super::{CommandOutcome, print, print_json, say};
 
 /// Show all that follows from a field: the derivation step by step, the claims, the number of operations of each quantity,
 /// and the terms of the equations that the field sees or does not see.
@@ -81,7 +81,7 @@ enum Format {
 }
 
 impl Show {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(self) -> anyhow::Result<CommandOutcome> {
         let input = find(&self.field, &self.variant)?;
         let rest = rest::stress(&input.compiled);
         if let Some(warning) = rest.warning(&input.compiled) {
@@ -96,7 +96,7 @@ impl Show {
                 )
             })?;
             print(&script)?;
-            return Ok(Outcome::AsExpected);
+            return Ok(CommandOutcome::AsExpected);
         }
         if self.fragment && self.format != Format::Latex {
             bail!("`--fragment`: expected `--format latex`; text and MathML are whole pages");
@@ -134,7 +134,7 @@ impl Show {
             Format::Latex => print(&latex::page(&document))?,
             Format::Mathml => print(&mathml::page(&document))?,
         }
-        Ok(Outcome::AsExpected)
+        Ok(CommandOutcome::AsExpected)
     }
 }
 

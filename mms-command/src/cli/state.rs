@@ -24,7 +24,7 @@ use mms_state::points::{Given, PER_CELL, Places, Points};
 use mms_state::{Term, USUAL, Wanted};
 
 use super::naming::Naming;
-use super::{Outcome, print, print_json, refuse_overwriting};
+use super::{CommandOutcome, print, print_json, refuse_overwriting};
 
 /// Write exact states of a field at points and times: to start a solver in the middle of a motion, to feed a solver that
 /// reads tables, or to view.
@@ -103,7 +103,7 @@ fn terms() -> impl TypedValueParser<Value = Term> {
 }
 
 impl State {
-    pub fn run(mut self) -> anyhow::Result<Outcome> {
+    pub fn run(mut self) -> anyhow::Result<CommandOutcome> {
         let variation = if self.affine { Variation::Affine } else { Variation::Nothing };
         let options = Options { variation, ..self.variant.options(Selection::default()) };
         let input = Input::new(open(&self.field)?, &options)?;
@@ -133,7 +133,7 @@ impl State {
         let frames = self.frames(&mut exact, &quantities, &domain)?;
         let written = self.output.write(&frames, &domain)?;
         self.tell(&exact, &domain, &frames, &written)?;
-        Ok(Outcome::AsExpected)
+        Ok(CommandOutcome::AsExpected)
     }
 
     fn validate_times(&self, exact: &Exact) -> anyhow::Result<()> {

@@ -22,7 +22,7 @@ use mms_lab::trial::Progress as Follow;
 use mms_mechanics::sample::domain;
 use mms_options::field::{Motion, open};
 use mms_options::method::{MethodOptions, Precision, finite, positive};
-use mms_report::{Comparison, Phases as InPhase, Refused, Study as Report};
+use mms_report::{Comparison, Phases as InPhase, Study as Report, UnstartedLevel};
 use mms_runtime::scene::{Scene, Solvable};
 use mms_runtime::study::{Phase, Phases, Refinement, Series, Watch, differences};
 use mms_runtime::{Division, Method, Real, Refusal, Run};
@@ -34,7 +34,7 @@ use self::usual::filled;
 use super::figure::FigureFile;
 use super::format::{Detail, Printing};
 use super::methods::Methods;
-use super::{Outcome, output_folder, print, replaced, say};
+use super::{CommandOutcome, output_folder, print, replaced, say};
 use crate::provenance::{self, Provenance};
 use crate::session::estimate::estimate;
 use crate::session::progress::Progress;
@@ -114,7 +114,7 @@ const COMPARED: [&str; 4] =
     ["displacement", "velocity", "deformation_gradient", "first_piola_kirchhoff"];
 
 /// A run, and its phase in the periods that are wanted; or why it was not started.
-type Solved = Result<(Run, Vec<Option<Phase>>), Refused>;
+type Solved = Result<(Run, Vec<Option<Phase>>), UnstartedLevel>;
 
 /// A study on its own, with the defaults of its options.
 #[derive(Parser)]
@@ -148,7 +148,7 @@ impl Case {
 
 /// Runs `mms` without arguments: the study of `bar_1d`, the bar of Wallstedt and Guilkey's slides, with contiguous-particle
 /// GIMP.
-pub(super) fn main_job() -> anyhow::Result<Outcome> {
+pub(super) fn default_study() -> anyhow::Result<CommandOutcome> {
     Alone::parse_from(["mms", "bar_1d"]).study.run(&["mms".to_owned()])
 }
 
@@ -175,13 +175,13 @@ pub fn studies(
 
 impl Study {
     /// Runs the study, with these words of a command line, including the words of a study file.
-    pub(super) fn run(self, words: &[String]) -> anyhow::Result<Outcome> {
+    pub(super) fn run(self, words: &[String]) -> anyhow::Result<CommandOutcome> {
         self.validate()?;
         let progress = Progress::new();
         let cases = self.cases(&open, &progress)?;
         let input = &cases[0].input;
         let folder = output_folder(self.output.as_deref(), input.name.raw())?;
-        self.figure.hold()?;
+        self.figure.validate()?;
         let provenance = provenance::new("study", words, input.provenance(&self.set));
         let studies = self.reports(&cases, words, &provenance, (&progress, &Unfollowed))?;
         let is_started = studies.iter().any(Report::is_started);
@@ -191,7 +191,7 @@ impl Study {
         }
         if !is_started {
             say(format_args!("error: the study of `{}` cannot be started", input.name.shown()));
-            return Ok(Outcome::RunFailed);
+            return Ok(CommandOutcome::RunFailed);
         }
         replaced::tell(&folder, "convergence", &report.provenance);
         let mut written = report.write(&folder)?;
@@ -199,12 +199,12 @@ impl Study {
         if self.printing.is_text() {
             print(&format!("\nwrote {}", written.join(", ")))?;
         }
-        Ok(if report.is_passed() { Outcome::AsExpected } else { Outcome::Refuted })
+        Ok(if report.is_passed() { CommandOutcome::AsExpected } else { CommandOutcome::Refuted })
     }
 
     /// The study of a command line whose first word is `study`, without the machine in its provenance; `None` if no level could
     /// be started.
-    pub fn anywhere(words: &[String]) -> anyhow::Result<Option<Report>> {
+    pub fn without_machine(words: &[String]) -> anyhow::Result<Option<Report>> {
         let mut report = studies(words, &open, &Progress::new(), &Unfollowed)?;
         report.studies.iter_mut().for_each(|it| it.provenance.machine = None);
         Ok(report.studies.into_iter().next().filter(Report::is_started))
@@ -416,7 +416,7 @@ impl Study {
                 Ok(Err(failure)) => progress.say(&format!("{cells} cells: {}", failure.place())),
                 Err(refusal) => progress.say(&format!("{cells} cells: not started: {refusal}")),
             }
-            run.map(|run| (run, phases)).map_err(|reason| Refused { cells, reason })
+            run.map(|run| (run, phases)).map_err(|reason| UnstartedLevel { cells, reason })
         };
         let planned = self.planned(scene, method);
         // The number of steps to an equilibrium is not known in advance.

@@ -10,7 +10,7 @@ use mms_exact::{Input, units};
 use mms_files::shell;
 use mms_files::store::Store;
 use mms_judge::next;
-use mms_lab::tradeoff::search::{Cost, Found, Goal, Plan, Runner, Search, Trial};
+use mms_lab::tradeoff::search::{Cost, Goal, Runner, Search, SearchProblem, TradeoffResult, Trial};
 use mms_lab::tradeoff::setting::Setting;
 use mms_lab::trial::Trials;
 use mms_mechanics::sample::domain;
@@ -27,7 +27,7 @@ use mms_symbolic::sorted::SortedMap;
 use super::figure::FigureFile;
 use super::format::Printing;
 use super::next::{after_search, typed};
-use super::{Outcome, print, say, this_command};
+use super::{CommandOutcome, print, say, this_command};
 use crate::session::progress::Progress;
 
 /// Find the cheapest method, options and grid of the built-in solver for an error, or the least error for a time.
@@ -81,7 +81,7 @@ pub struct Tradeoff {
 }
 
 impl Tradeoff {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(self) -> anyhow::Result<CommandOutcome> {
         if self.budget_seconds.is_some() && self.cost != Cost::Seconds {
             bail!("`--budget-seconds`: the cost is then in seconds; leave out `--cost`");
         }
@@ -95,8 +95,9 @@ impl Tradeoff {
         let input = self.input(field)?;
         input.validate_settings(&self.set)?;
         let folder = super::output_folder(self.output.as_deref(), input.name.raw())?;
-        self.figure.hold()?;
-        let mut bench = Bench { trials: &mut trials, field, set: &self.set, motion: &self.motion };
+        self.figure.validate()?;
+        let mut bench =
+            SettingRunner { trials: &mut trials, field, set: &self.set, motion: &self.motion };
         let target = self.target_linf.map(Goal::Error);
         let goal = target.or_else(|| self.budget_seconds.map(Goal::Cost));
         // Without a goal, any error is accepted until the error of the default is known.
@@ -119,7 +120,11 @@ impl Tradeoff {
         if self.printing.is_text() {
             print(&format!("\nwrote {}", written.join(", ")))?;
         }
-        Ok(if report.choice().is_some() { Outcome::AsExpected } else { Outcome::Refuted })
+        Ok(if report.choice().is_some() {
+            CommandOutcome::AsExpected
+        } else {
+            CommandOutcome::Refuted
+        })
     }
 
     fn input(&self, field: &str) -> anyhow::Result<Input> {
@@ -131,8 +136,8 @@ impl Tradeoff {
     fn report<'a>(
         &self,
         input: &Input,
-        plan: Plan,
-        found: Found,
+        plan: SearchProblem,
+        found: TradeoffResult,
         command: &'a dyn Fn(&Setting, usize) -> String,
     ) -> anyhow::Result<Report<'a>> {
         let [field, title] = [input.name.clone(), input.compiled.field.title.clone()];
@@ -152,24 +157,25 @@ impl Tradeoff {
         })
     }
 
-    fn plan(&self, input: &Input, goal: Goal) -> anyhow::Result<Plan> {
+    fn plan(&self, input: &Input, goal: Goal) -> anyhow::Result<SearchProblem> {
         let scene = input.scene(&self.set, |code| code.double)?;
         let dimension = input.compiled.field.dimension;
         let grain = scene.edges().map_or(1, |edges| grain(&edges));
         let longest = scene.cell_size(&Division::Uniform(1));
         let unit_work = unit_work(&input.compiled, &input.settings(&self.set)?, longest);
         let (cost, most_work) = (self.cost, self.most_work);
-        Ok(Plan { dimension, grain, goal, cost, most_work, unit_work })
+        Ok(SearchProblem { dimension, grain, goal, cost, most_work, unit_work })
     }
 
     /// The page, of some fields and targets.
-    fn print_page(&self, trials: &mut Trials) -> anyhow::Result<Outcome> {
+    fn print_page(&self, trials: &mut Trials) -> anyhow::Result<CommandOutcome> {
         let mut page = Page::default();
         for field in Page::FIELDS {
             let input = self.input(field)?;
             for target in Page::TARGETS {
                 let plan = self.plan(&input, Goal::Error(target))?;
-                let mut bench = Bench { trials, field, set: &self.set, motion: &self.motion };
+                let mut bench =
+                    SettingRunner { trials, field, set: &self.set, motion: &self.motion };
                 let found = Search::run(&mut bench, plan)?;
                 let command = |setting: &Setting, cells: usize| self.command(field, setting, cells);
                 page.add(&self.report(&input, plan, found, &command)?);
@@ -177,7 +183,7 @@ impl Tradeoff {
         }
         trials.finish();
         print(page.text())?;
-        Ok(Outcome::AsExpected)
+        Ok(CommandOutcome::AsExpected)
     }
 
     fn command(&self, field: &str, setting: &Setting, cells: usize) -> String {
@@ -203,14 +209,14 @@ fn arguments(
 }
 
 /// Runs settings on a field.
-struct Bench<'a> {
+struct SettingRunner<'a> {
     trials: &'a mut Trials,
     field: &'a str,
     set: &'a [String],
     motion: &'a Motion,
 }
 
-impl Runner for Bench<'_> {
+impl Runner for SettingRunner<'_> {
     fn run(&mut self, setting: &Setting, cells: usize) -> anyhow::Result<Trial> {
         let arguments = arguments(self.field, self.set, self.motion, setting, cells);
         let trial = self.trials.run(&arguments)?;
@@ -231,9 +237,9 @@ impl Runner for Bench<'_> {
     }
 }
 
-impl Bench<'_> {
+impl SettingRunner<'_> {
     /// The error of a run without options, as a goal.
-    fn usual(&mut self, plan: &Plan) -> anyhow::Result<Goal> {
+    fn usual(&mut self, plan: &SearchProblem) -> anyhow::Result<Goal> {
         let (setting, cells) = (Setting::default(), usual_cells(plan.dimension));
         let work = plan.work(&setting, cells);
         if work > plan.most_work {

@@ -18,15 +18,15 @@ use mms_files::write::{pretty, write_files};
 use mms_lab::rows::Named as _;
 use mms_options::field::find;
 use mms_report::Shown;
-use mms_report::verify::{Judged, List, Report};
+use mms_report::verify::{JudgedRow, List, Report};
 use mms_spec::suggest::advice;
 use mms_verify::matrix::{MATRIX, MatrixRow, rows};
-use mms_verify::plan::{Job, Plan};
+use mms_verify::plan::{Job, RunPlan};
 use mms_verify::verdict::judge;
 use mms_verify::work::{Fields, Watcher, outcomes};
 
 use super::format::Printing;
-use super::{Outcome, print, say, this_command, validate_output};
+use super::{CommandOutcome, print, say, this_command, validate_output};
 use crate::provenance;
 
 /// Run the verification matrix: test each mode of the built-in solver on a field that isolates it, and compare each verdict
@@ -70,12 +70,12 @@ pub struct Verify {
 }
 
 impl Verify {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(self) -> anyhow::Result<CommandOutcome> {
         let all = rows()?;
         let rows = self.select(&all)?;
         if self.list {
             self.printing.print(&List { rows: &rows, quick: self.quick })?;
-            return Ok(Outcome::AsExpected);
+            return Ok(CommandOutcome::AsExpected);
         }
         self.output.as_deref().map_or(Ok(()), validate_output)?;
         let threads = self.threads.or(std::thread::available_parallelism().ok());
@@ -83,7 +83,7 @@ impl Verify {
         if let Some(names) = &self.defects {
             return self.show_defects(names, &all, &rows, threads);
         }
-        let plan = Plan::new(&rows, self.quick, &identity()?)?;
+        let plan = RunPlan::new(&rows, self.quick, &identity()?)?;
         let (store, set_aside) = Store::open(&self.store)?;
         let progress = Progress::new(&plan.jobs);
         set_aside.iter().for_each(|what| progress.set_aside(what));
@@ -93,7 +93,7 @@ impl Verify {
         let judged = rows.iter().zip(&plan.levels).map(|(row, levels)| {
             let levels: Vec<_> = levels.iter().map(|&at| outcomes[at].clone()).collect();
             let judgement = judge(row, &levels);
-            Ok(Judged { row, study: row.study()?.0, levels, judgement })
+            Ok(JudgedRow { row, study: row.study()?.0, levels, judgement })
         });
         let report = Report {
             quick: self.quick,
@@ -102,8 +102,8 @@ impl Verify {
         };
         self.tell("verification", &report, || report.page())?;
         Ok(match report.unexpected().next() {
-            None => Outcome::AsExpected,
-            Some(_) => Outcome::Refuted,
+            None => CommandOutcome::AsExpected,
+            Some(_) => CommandOutcome::Refuted,
         })
     }
 
@@ -129,7 +129,7 @@ impl Verify {
         _: &[MatrixRow],
         _: &[&MatrixRow],
         _: NonZero<usize>,
-    ) -> anyhow::Result<Outcome> {
+    ) -> anyhow::Result<CommandOutcome> {
         bail!(
             "this program has no defects in it; `cargo run --release --features defects -- verify --defects` builds and runs one that has"
         )
@@ -224,7 +224,7 @@ impl Watcher for Progress {
         self.bar.inc(self.units(job, step, steps) - self.units(job, step - 1, steps));
     }
 
-    fn done(&self, job: &Job, outcome: &mms_lab::outcome::Outcome) {
+    fn done(&self, job: &Job, outcome: &mms_lab::outcome::SolverOutcome) {
         let count = self.count();
         if self.bar.is_hidden() {
             let end = outcome.failure().unwrap_or_else(|| "done".into());

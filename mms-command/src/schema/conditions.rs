@@ -9,7 +9,7 @@ use mms_spec::quantity::Quantity;
 use mms_spec::{BODIES, BODY_KEYS, Face, MaterialSpec, Shape, Space};
 use serde_json::{Map, Value, json};
 
-use super::holds::{count, extend};
+use super::value_types::{count, extend};
 
 /// All conditions.
 pub fn of_field() -> Value {

@@ -9,7 +9,7 @@
 
 mod conditions;
 pub mod documents;
-mod holds;
+mod value_types;
 
 use mms_spec::format::{FIELD_FILE, Key, MATERIAL_FILE};
 use serde_json::{Value, json};
@@ -34,6 +34,6 @@ fn document(title: &str, description: &str, keys: &[Key]) -> Value {
         "title": title,
         "description": description,
     });
-    holds::extend(&mut schema, holds::table(keys));
+    value_types::extend(&mut schema, value_types::table(keys));
     schema
 }

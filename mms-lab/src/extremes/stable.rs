@@ -5,7 +5,7 @@ use mms_options::method::Precision;
 use mms_runtime::{Division, Method};
 
 use super::subject::Subject;
-use super::verdict::Seen;
+use super::verdict::RunResult;
 
 /// The range in which the number is searched.
 pub const RANGE: [f64; 2] = [0.02, 4.0];
@@ -49,5 +49,5 @@ fn is_stable(subject: &Subject, method: &Method, courant: f64) -> anyhow::Result
     method.setup.fastest_wave = None;
     subject.end_after(&mut method, cells, STEPS);
     let seen = subject.run(&method, Division::Uniform(cells), Precision::F64, &mut ())?;
-    Ok(matches!(seen, Seen::Ended { l2, .. } if l2 < GROWN))
+    Ok(matches!(seen, RunResult::Ended { l2, .. } if l2 < GROWN))
 }

@@ -19,7 +19,7 @@ use mms_symbolic::sorted::SortedMap;
 
 use super::rows::ExtremeSetting;
 use super::theory::Elasticity;
-use super::verdict::{Diagnosis, Seen};
+use super::verdict::{Diagnosis, RunResult};
 
 /// The number of points and times at which the largest displacement and the least J are searched.
 const POINTS: usize = 256;
@@ -154,7 +154,7 @@ impl Subject {
         cells: Division,
         precision: Precision,
         observer: &mut dyn Observer,
-    ) -> anyhow::Result<Seen> {
+    ) -> anyhow::Result<RunResult> {
         let set = &self.set;
         Ok(match precision {
             Precision::F32 => {
@@ -172,16 +172,16 @@ impl Subject {
         method: &Method,
         cells: Division,
         observer: &mut dyn Observer,
-    ) -> Seen {
+    ) -> RunResult {
         let run = match scene.run(method, &cells, Watch::Displacement, observer) {
             Ok(run) => run,
             Err(refusal) => {
                 let diagnosis = Diagnosis::of_refusal(&refusal);
-                return Seen::Stopped { diagnosis, reason: refusal.to_string() };
+                return RunResult::Stopped { diagnosis, reason: refusal.to_string() };
             }
         };
         match (run.level.errors, run.details) {
-            (Ok(errors), Some(details)) => Seen::Ended {
+            (Ok(errors), Some(details)) => RunResult::Ended {
                 l2: errors.l2 / self.size,
                 round_off: details.round_off / self.size,
                 cell_size: run.level.cell_size / self.edge,
@@ -190,11 +190,13 @@ impl Subject {
                     FormulationName::Total => 1.0,
                 },
             },
-            (Err(failure), _) => Seen::Stopped {
+            (Err(failure), _) => RunResult::Stopped {
                 diagnosis: Diagnosis::of_cause(&failure.cause),
                 reason: failure.to_string(),
             },
-            (Ok(_), None) => Seen::Stopped { diagnosis: Diagnosis::Stopped, reason: String::new() },
+            (Ok(_), None) => {
+                RunResult::Stopped { diagnosis: Diagnosis::Stopped, reason: String::new() }
+            }
         }
     }
 }

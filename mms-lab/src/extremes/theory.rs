@@ -141,19 +141,19 @@ fn along(weights: &[Weight], wave: f64) -> Along {
 }
 
 /// A mode: its factors s after maps to the particles and back, without and with the linear part of the velocity, and omega^2.
-struct Mode {
-    kept: f64,
-    kept_linear: f64,
-    squared: f64,
+struct GridMode {
+    s: f64,
+    s_linear: f64,
+    omega_squared: f64,
 }
 
 /// The mode of a wave, given its values along each axis at each of the particles along it.
-fn mode(elasticity: &Elasticity, axes: &[Vec<Along>]) -> Mode {
+fn mode(elasticity: &Elasticity, axes: &[Vec<Along>]) -> GridMode {
     let (dimension, per_axis) = (elasticity.dimension, axes[0].len());
     let count = per_axis.pow(dimension as u32);
     let part = 1.0 / count as f64;
     let zero = Complex::new(0.0, 0.0);
-    let (mut kept, mut kept_linear) = (0.0, 0.0);
+    let (mut s, mut s_linear) = (0.0, 0.0);
     let mut operator = DMatrix::from_element(dimension, dimension, zero);
     for particle in 0..count {
         let at: Vec<&Along> = (0..dimension)
@@ -167,8 +167,8 @@ fn mode(elasticity: &Elasticity, axes: &[Vec<Along>]) -> Mode {
         let value = product(dimension, 0).norm_sqr();
         let linear: f64 =
             (0..dimension).map(|axis| (product(axis, 2).conj() * gradient[axis]).re).sum();
-        kept += part * value;
-        kept_linear += part * (value + linear);
+        s += part * value;
+        s_linear += part * (value + linear);
         for (index, stiffness) in elasticity.stiffness.iter().enumerate() {
             let digit = |place: u32| index / dimension.pow(place) % dimension;
             let (a, b, c, d) = (digit(3), digit(2), digit(1), digit(0));
@@ -184,7 +184,7 @@ fn mode(elasticity: &Elasticity, axes: &[Vec<Along>]) -> Mode {
             (false, true) => entry.im,
         }
     });
-    Mode { kept, kept_linear, squared: real.symmetric_eigenvalues().max() }
+    GridMode { s, s_linear, omega_squared: real.symmetric_eigenvalues().max() }
 }
 
 /// The largest stable Courant number of a method; none of a method that is not analysed.
@@ -212,7 +212,8 @@ pub fn courant(method: &Method, elasticity: &Elasticity) -> Option<f64> {
         let axes: Vec<_> = (0..dimension)
             .map(|axis| all[index / all.len().pow(axis as u32) % all.len()].clone())
             .collect();
-        let Mode { kept, kept_linear, squared } = mode(elasticity, &axes);
+        let GridMode { s: kept, s_linear: kept_linear, omega_squared: squared } =
+            mode(elasticity, &axes);
         let s = if method.setup.transfer == Transfer::Apic { kept_linear } else { kept };
         let r = match method.setup.transfer {
             Transfer::Flip { fraction } => fraction + (1.0 - fraction) * s,

@@ -79,7 +79,7 @@ impl Diagnosis {
 
 /// The result of a run. Errors are relative to the largest displacement of the field.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Seen {
+pub enum RunResult {
     /// The run ended.
     Ended {
         /// The largest over time of the root mean square over particles.
@@ -118,7 +118,7 @@ pub struct Declared {
 
 /// The end of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
+pub enum ExtremeVerdict {
     /// The error is within its bound.
     WithinBound,
     /// The run stops with an allowed diagnosis.
@@ -136,23 +136,28 @@ pub enum Verdict {
     LeftOut,
 }
 
-impl Verdict {
+impl ExtremeVerdict {
     /// The word in the table and in JSON.
     pub fn name(self) -> &'static str {
         match self {
-            Verdict::WithinBound => "within bound",
-            Verdict::Stops => "stops",
-            Verdict::Unresolved => "unresolved",
-            Verdict::BeyondBound => "beyond bound",
-            Verdict::WrongDiagnosis => "wrong diagnosis",
-            Verdict::DoesNotStop => "does not stop",
-            Verdict::LeftOut => "left out",
+            ExtremeVerdict::WithinBound => "within bound",
+            ExtremeVerdict::Stops => "stops",
+            ExtremeVerdict::Unresolved => "unresolved",
+            ExtremeVerdict::BeyondBound => "beyond bound",
+            ExtremeVerdict::WrongDiagnosis => "wrong diagnosis",
+            ExtremeVerdict::DoesNotStop => "does not stop",
+            ExtremeVerdict::LeftOut => "left out",
         }
     }
 
     /// Whether the verdict agrees with theory.
     pub fn is_expected(self) -> bool {
-        !matches!(self, Verdict::BeyondBound | Verdict::WrongDiagnosis | Verdict::DoesNotStop)
+        !matches!(
+            self,
+            ExtremeVerdict::BeyondBound
+                | ExtremeVerdict::WrongDiagnosis
+                | ExtremeVerdict::DoesNotStop
+        )
     }
 }
 
@@ -178,19 +183,21 @@ fn is_vacuous(bound: f64, declared: Declared, least_jacobian: f64) -> bool {
 }
 
 /// The verdict on the result of a row.
-pub fn judge(row: &ExtremeSetting, declared: Declared, seen: &Seen) -> Verdict {
+pub fn judge(row: &ExtremeSetting, declared: Declared, seen: &RunResult) -> ExtremeVerdict {
     match seen {
-        Seen::LeftOut { .. } => Verdict::LeftOut,
-        Seen::Stopped { diagnosis, .. } if row.stops.contains(diagnosis) => Verdict::Stops,
-        Seen::Stopped { .. } => Verdict::WrongDiagnosis,
-        Seen::Ended { l2, round_off, cell_size, least_jacobian } => {
+        RunResult::LeftOut { .. } => ExtremeVerdict::LeftOut,
+        RunResult::Stopped { diagnosis, .. } if row.stops.contains(diagnosis) => {
+            ExtremeVerdict::Stops
+        }
+        RunResult::Stopped { .. } => ExtremeVerdict::WrongDiagnosis,
+        RunResult::Ended { l2, round_off, cell_size, least_jacobian } => {
             match bound(row, declared, *cell_size, *round_off) {
-                None => Verdict::DoesNotStop,
-                Some(bound) if *l2 <= bound => Verdict::WithinBound,
+                None => ExtremeVerdict::DoesNotStop,
+                Some(bound) if *l2 <= bound => ExtremeVerdict::WithinBound,
                 Some(bound) if l2.is_finite() && is_vacuous(bound, declared, *least_jacobian) => {
-                    Verdict::Unresolved
+                    ExtremeVerdict::Unresolved
                 }
-                Some(_) => Verdict::BeyondBound,
+                Some(_) => ExtremeVerdict::BeyondBound,
             }
         }
     }
@@ -207,7 +214,7 @@ mod tests {
     #[test]
     fn a_row_is_within_its_bound_or_stops_as_expected() {
         let declared = Declared { l2: 1e-3, cell_size: 0.1, least_jacobian: 0.5 };
-        let crowded = |l2: f64, least_jacobian| Seen::Ended {
+        let crowded = |l2: f64, least_jacobian| RunResult::Ended {
             l2,
             round_off: 1e-6,
             cell_size: 0.1,
@@ -215,21 +222,34 @@ mod tests {
         };
         let ended = |l2: f64| crowded(l2, 0.5);
         let bounded = row("l2 = 2\nstops = [\"lost\"]");
-        assert_eq!(judge(&bounded, declared, &ended(2e-3)), Verdict::WithinBound);
-        assert_eq!(judge(&bounded, declared, &ended(2.1e-3)), Verdict::BeyondBound);
-        assert_eq!(judge(&bounded, declared, &ended(f64::NAN)), Verdict::BeyondBound);
+        assert_eq!(judge(&bounded, declared, &ended(2e-3)), ExtremeVerdict::WithinBound);
+        assert_eq!(judge(&bounded, declared, &ended(2.1e-3)), ExtremeVerdict::BeyondBound);
+        assert_eq!(judge(&bounded, declared, &ended(f64::NAN)), ExtremeVerdict::BeyondBound);
         // Cells with 30 times the material may have errors as large as the motion; cells with 10 times may not.
-        assert_eq!(judge(&bounded, declared, &crowded(0.9, 0.5 / 30.0)), Verdict::Unresolved);
-        assert_eq!(judge(&bounded, declared, &crowded(1e-3, 0.5 / 30.0)), Verdict::WithinBound);
-        assert_eq!(judge(&bounded, declared, &crowded(0.9, 0.5 / 10.0)), Verdict::BeyondBound);
-        assert_eq!(judge(&bounded, declared, &crowded(f64::NAN, 1e-3)), Verdict::BeyondBound);
-        let coarse = Seen::Ended { l2: 7e-3, round_off: 0.0, cell_size: 0.2, least_jacobian: 0.5 };
-        assert_eq!(judge(&bounded, declared, &coarse), Verdict::WithinBound);
-        let stopped = |diagnosis| Seen::Stopped { diagnosis, reason: String::new() };
-        assert_eq!(judge(&bounded, declared, &stopped(Diagnosis::Lost)), Verdict::Stops);
+        assert_eq!(
+            judge(&bounded, declared, &crowded(0.9, 0.5 / 30.0)),
+            ExtremeVerdict::Unresolved
+        );
+        assert_eq!(
+            judge(&bounded, declared, &crowded(1e-3, 0.5 / 30.0)),
+            ExtremeVerdict::WithinBound
+        );
+        assert_eq!(
+            judge(&bounded, declared, &crowded(0.9, 0.5 / 10.0)),
+            ExtremeVerdict::BeyondBound
+        );
+        assert_eq!(
+            judge(&bounded, declared, &crowded(f64::NAN, 1e-3)),
+            ExtremeVerdict::BeyondBound
+        );
+        let coarse =
+            RunResult::Ended { l2: 7e-3, round_off: 0.0, cell_size: 0.2, least_jacobian: 0.5 };
+        assert_eq!(judge(&bounded, declared, &coarse), ExtremeVerdict::WithinBound);
+        let stopped = |diagnosis| RunResult::Stopped { diagnosis, reason: String::new() };
+        assert_eq!(judge(&bounded, declared, &stopped(Diagnosis::Lost)), ExtremeVerdict::Stops);
         let wrong = judge(&bounded, declared, &stopped(Diagnosis::Inverted));
-        assert_eq!((wrong, wrong.is_expected()), (Verdict::WrongDiagnosis, false));
+        assert_eq!((wrong, wrong.is_expected()), (ExtremeVerdict::WrongDiagnosis, false));
         let stops = row("stops = [\"unstable_step\"]");
-        assert_eq!(judge(&stops, declared, &ended(0.0)), Verdict::DoesNotStop);
+        assert_eq!(judge(&stops, declared, &ended(0.0)), ExtremeVerdict::DoesNotStop);
     }
 }

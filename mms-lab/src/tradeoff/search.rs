@@ -94,7 +94,7 @@ pub trait Runner {
 
 /// The scope of the search.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Plan {
+pub struct SearchProblem {
     /// The dimension of the body.
     pub dimension: usize,
     /// Numbers of cells are multiples of this.
@@ -109,11 +109,11 @@ pub struct Plan {
     pub unit_work: f64,
 }
 
-impl Plan {
+impl SearchProblem {
     /// The coarse grids that everything is tried on.
     pub fn screen(&self) -> [usize; 2] {
         let coarse = [32, 16, 4][self.dimension - 1];
-        let coarse = self.whole(coarse as f64);
+        let coarse = self.round_up_to_grain(coarse as f64);
         [coarse, 2 * coarse]
     }
 
@@ -125,7 +125,7 @@ impl Plan {
     }
 
     /// The nearest number of cells that is not less.
-    fn whole(&self, cells: f64) -> usize {
+    fn round_up_to_grain(&self, cells: f64) -> usize {
         ((cells / self.grain as f64).ceil().max(1.0) as usize).saturating_mul(self.grain)
     }
 
@@ -196,7 +196,7 @@ impl Line {
     }
 
     /// The grid that just meets a goal; `None` if no grid does.
-    pub fn meet(&self, plan: &Plan) -> Option<Prediction> {
+    pub fn meet(&self, plan: &SearchProblem) -> Option<Prediction> {
         let growth = plan.growth();
         let ratio = match (plan.goal, self.order) {
             (Goal::Error(target), Some(order)) => {
@@ -214,14 +214,14 @@ impl Line {
 /// A search.
 pub struct Search<'a> {
     runner: &'a mut dyn Runner,
-    plan: Plan,
+    plan: SearchProblem,
     /// All runs, in the order in which they were made.
     pub trials: Vec<Trial>,
 }
 
 /// The result of a search.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
+pub struct TradeoffResult {
     /// All runs, in the order in which they were made.
     pub trials: Vec<Trial>,
     /// The run that meets the goal best, by position.
@@ -237,7 +237,7 @@ impl<'a> Search<'a> {
     ///
     /// # Errors
     /// A run that could not be tried.
-    pub fn run(runner: &'a mut dyn Runner, plan: Plan) -> anyhow::Result<Found> {
+    pub fn run(runner: &'a mut dyn Runner, plan: SearchProblem) -> anyhow::Result<TradeoffResult> {
         let mut search = Search { runner, plan, trials: Vec::new() };
         let mut candidates = search.screen()?;
         let mut tuned = Vec::new();
@@ -253,7 +253,7 @@ impl<'a> Search<'a> {
             None => search.best_prediction(),
         };
         let default = search.line(&Setting::default()).and_then(|line| line.meet(&plan));
-        Ok(Found { choice: search.choice(), predicted, default, trials: search.trials })
+        Ok(TradeoffResult { choice: search.choice(), predicted, default, trials: search.trials })
     }
 
     /// Makes a run that has not been made, unless its predicted work is too large.
@@ -396,7 +396,7 @@ impl<'a> Search<'a> {
     }
 
     /// The distance of a power law from the goal: the cost that meets an error, or the error that meets a cost.
-    fn loss_of(&self, line: &Line) -> Option<f64> {
+    fn loss_of_line(&self, line: &Line) -> Option<f64> {
         let met = line.meet(&self.plan)?;
         Some(match self.plan.goal {
             Goal::Error(_) => met.cost,
@@ -405,11 +405,11 @@ impl<'a> Search<'a> {
     }
 
     fn loss_on(&self, setting: &Setting, cells: usize) -> Option<f64> {
-        self.loss_of(&self.line_on(setting, cells)?)
+        self.loss_of_line(&self.line_on(setting, cells)?)
     }
 
     fn loss(&self, setting: &Setting) -> Option<f64> {
-        self.loss_of(&self.line(setting)?)
+        self.loss_of_line(&self.line(setting)?)
     }
 
     /// Runs the setting with the best prediction, if it is within the allowed work; and the settings after it, as long as they
@@ -477,8 +477,10 @@ impl<'a> Search<'a> {
         };
         // A grid that is predicted to meet the goal exactly often misses it slightly.
         let cells = match self.plan.goal {
-            Goal::Error(_) => self.plan.whole(met.cells * 1.01),
-            Goal::Cost(_) => self.plan.whole(met.cells * 0.99).saturating_sub(grain).max(grain),
+            Goal::Error(_) => self.plan.round_up_to_grain(met.cells * 1.01),
+            Goal::Cost(_) => {
+                self.plan.round_up_to_grain(met.cells * 0.99).saturating_sub(grain).max(grain)
+            }
         };
         let least = low.map_or(grain, |low| low + grain);
         let most = high.map_or(4 * line.cells as usize + grain, |high| high.saturating_sub(grain));
@@ -530,7 +532,7 @@ impl<'a> Search<'a> {
     fn surround(&mut self) -> anyhow::Result<()> {
         if let Some(choice) = self.choice().map(|at| self.trials[at].clone()) {
             for part in [2f64.sqrt(), 2.0] {
-                let cells = self.plan.whole(choice.cells as f64 / part);
+                let cells = self.plan.round_up_to_grain(choice.cells as f64 / part);
                 self.trial(&choice.setting, cells)?;
             }
         }
@@ -556,7 +558,7 @@ impl<'a> Search<'a> {
             let stopped = |trial: &Trial| trial.error.is_err() && trial.cells as f64 > line.cells;
             let has_ended = self.trials.iter().any(|trial| trial.setting == it && stopped(trial));
             let met = line.meet(&self.plan).filter(|_| !has_ended)?;
-            Some((self.loss_of(&line)?, it, met))
+            Some((self.loss_of_line(&line)?, it, met))
         });
         let best = lines.min_by(|a, b| a.0.total_cmp(&b.0));
         best.map(|(_, setting, prediction)| (setting, prediction))

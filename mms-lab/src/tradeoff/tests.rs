@@ -3,7 +3,7 @@
 use mms_options::method::Precision;
 use mms_runtime::ShapeName;
 
-use super::search::{Cost, Found, Goal, Plan, Runner, Search, Trial};
+use super::search::{Cost, Goal, Runner, Search, SearchProblem, TradeoffResult, Trial};
 use super::setting::Setting;
 
 /// Errors and times by formula, and the number of requests.
@@ -30,11 +30,14 @@ impl<E: Fn(&Setting, f64) -> Result<f64, String>> Runner for Known<E> {
     }
 }
 
-fn plan(goal: Goal, cost: Cost) -> Plan {
-    Plan { dimension: 1, grain: 1, goal, cost, most_work: 1e8, unit_work: 2.0 }
+fn plan(goal: Goal, cost: Cost) -> SearchProblem {
+    SearchProblem { dimension: 1, grain: 1, goal, cost, most_work: 1e8, unit_work: 2.0 }
 }
 
-fn search(plan: Plan, error: impl Fn(&Setting, f64) -> Result<f64, String>) -> (Found, usize) {
+fn search(
+    plan: SearchProblem,
+    error: impl Fn(&Setting, f64) -> Result<f64, String>,
+) -> (TradeoffResult, usize) {
     let mut known = Known { error, runs: 0 };
     let found = Search::run(&mut known, plan).unwrap();
     (found, known.runs)
@@ -54,7 +57,7 @@ fn smooth(setting: &Setting, cells: f64) -> Result<f64, String> {
     Ok(space * sampling * (1.0 + setting.courant.powi(2)) / cells.powi(2))
 }
 
-fn choice(found: &Found) -> &Trial {
+fn choice(found: &TradeoffResult) -> &Trial {
     &found.trials[found.choice.expect("a choice")]
 }
 
@@ -117,7 +120,7 @@ fn round_off_that_shows_late_sends_the_search_back() {
 
 #[test]
 fn what_is_out_of_reach_is_predicted_and_not_run() {
-    let limited = Plan { most_work: 1e6, ..plan(Goal::Error(1e-7), Cost::ParticleSteps) };
+    let limited = SearchProblem { most_work: 1e6, ..plan(Goal::Error(1e-7), Cost::ParticleSteps) };
     let (found, _) = search(limited, smooth);
     assert!(found.choice.is_none());
     let (setting, prediction) = found.predicted.expect("a prediction");
@@ -130,7 +133,7 @@ fn what_is_out_of_reach_is_predicted_and_not_run() {
 #[test]
 fn no_run_takes_more_than_it_may() {
     for (most_work, is_run) in [(1.0, false), (2e4, true)] {
-        let limited = Plan { most_work, ..plan(Goal::Error(1e-2), Cost::ParticleSteps) };
+        let limited = SearchProblem { most_work, ..plan(Goal::Error(1e-2), Cost::ParticleSteps) };
         let (found, _) = search(limited, smooth);
         assert_eq!(!found.trials.is_empty(), is_run);
         assert!(found.trials.iter().all(|trial| trial.particle_steps() <= 1.01 * most_work));
@@ -159,7 +162,7 @@ fn where_nothing_converges_there_is_no_choice_and_no_prediction() {
 /// If the edges of a body are as 3 to 1, numbers of cells are multiples of 3.
 #[test]
 fn numbers_of_cells_divide_the_edges() {
-    let grained = Plan { grain: 3, ..plan(Goal::Error(1e-4), Cost::ParticleSteps) };
+    let grained = SearchProblem { grain: 3, ..plan(Goal::Error(1e-4), Cost::ParticleSteps) };
     let (found, _) = search(grained, smooth);
     assert!(found.choice.is_some());
     assert!(found.trials.iter().all(|trial| trial.cells % 3 == 0));

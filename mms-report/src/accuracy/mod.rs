@@ -15,7 +15,7 @@ use mms_spec::quantity::Quantity;
 use super::page::Section as _;
 use super::plot::Figure;
 use crate::shown::Shown;
-use crate::table::Table;
+use crate::table::TextTable;
 
 /// The bound of the stable form, in eps of the largest value of a quantity.
 pub const BOUND: f64 = 64.0;
@@ -116,7 +116,7 @@ impl Report {
         shown
     }
 
-    fn table(&self) -> Table {
+    fn table(&self) -> TextTable {
         let caption = format!("{}, {} points, errors in eps", self.field.shown(), self.points);
         let header = [
             "quantity",
@@ -130,7 +130,7 @@ impl Report {
             "not finite",
             "ns/point",
         ];
-        let mut table = Table::new(caption, header).right_from(4);
+        let mut table = TextTable::new(caption, header).right_from(4);
         for row in self.shown(self.all) {
             let errors = row.errors;
             let lost = match (errors.not_finite, errors.overflowed) {
@@ -212,7 +212,7 @@ impl Shown for Report {
         text
     }
 
-    fn tables(&self) -> Vec<Table> {
+    fn tables(&self) -> Vec<TextTable> {
         vec![self.table()]
     }
 

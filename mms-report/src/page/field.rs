@@ -13,7 +13,7 @@ use mms_show::{DERIVATION, Document, mathml};
 use super::motion::Motion;
 
 /// A field on a page.
-pub struct Shown {
+pub struct FieldOnPage {
     input: Input,
     /// The content of the field; or the reason why there is none.
     content: Result<Content, String>,
@@ -28,7 +28,7 @@ struct Content {
 }
 
 /// The fields of some results, each once.
-pub fn fields<'a>(provenances: impl Iterator<Item = &'a Provenance>) -> Vec<Shown> {
+pub fn fields<'a>(provenances: impl Iterator<Item = &'a Provenance>) -> Vec<FieldOnPage> {
     let mut inputs: Vec<&Input> = Vec::new();
     for input in provenances.map(|it| &it.input).filter(|input| input.field.is_some()) {
         if !inputs.contains(&input) {
@@ -37,7 +37,7 @@ pub fn fields<'a>(provenances: impl Iterator<Item = &'a Provenance>) -> Vec<Show
     }
     inputs
         .into_iter()
-        .map(|input| Shown { input: input.clone(), content: content(input) })
+        .map(|input| FieldOnPage { input: input.clone(), content: content(input) })
         .collect()
 }
 
@@ -64,7 +64,7 @@ fn content(input: &Input) -> Result<Content, String> {
     })
 }
 
-impl Shown {
+impl FieldOnPage {
     /// A field of the gallery, as it is.
     pub fn of_gallery(entry: &Entry) -> anyhow::Result<Self> {
         let found = mms_exact::Input::new(open(entry.name)?, &Options::default())?;

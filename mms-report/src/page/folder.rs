@@ -30,9 +30,9 @@ impl Page {
         };
         for path in files.iter().filter(|path| !has_extension(path, "vtu")) {
             match found(path, &name(path)) {
-                Found::Result(entry) => entries.push(*entry),
-                Found::Stored => stored += 1,
-                Found::Other(reason) => leave_out(path, &reason),
+                FolderFile::Result(entry) => entries.push(*entry),
+                FolderFile::Stored => stored += 1,
+                FolderFile::Other(reason) => leave_out(path, &reason),
             }
         }
         for (path, error) in unread {
@@ -56,7 +56,7 @@ impl Page {
 }
 
 /// The kind of a file.
-enum Found {
+enum FolderFile {
     Result(Box<Entry>),
     /// One run of a store.
     Stored,
@@ -94,16 +94,16 @@ fn has_extension(path: &Path, extension: &str) -> bool {
     path.extension().is_some_and(|own| own == extension)
 }
 
-fn found(path: &Path, name: &str) -> Found {
-    read(path, name).unwrap_or_else(|error| Found::Other(format!("{error:#}")))
+fn found(path: &Path, name: &str) -> FolderFile {
+    read(path, name).unwrap_or_else(|error| FolderFile::Other(format!("{error:#}")))
 }
 
-fn read(path: &Path, name: &str) -> anyhow::Result<Found> {
+fn read(path: &Path, name: &str) -> anyhow::Result<FolderFile> {
     let is_list = has_extension(path, "pvd");
     let bytes = read::bytes(path, if is_list { FileKind::States } else { FileKind::Result })?;
     let Ok(text) = String::from_utf8(bytes) else { bail!("not text") };
     if is_list {
-        return Ok(Found::Result(Box::new(Entry {
+        return Ok(FolderFile::Result(Box::new(Entry {
             id: String::new(),
             heading: states::HEADING,
             file: name.to_owned(),
@@ -114,7 +114,8 @@ fn read(path: &Path, name: &str) -> anyhow::Result<Found> {
     let document: Value =
         serde_json::from_str(&text).map_err(|error| anyhow!("not JSON: {error}"))?;
     if document.get("format").is_some_and(|format| format == store::FORMAT) {
-        return Ok(Found::Stored);
+        return Ok(FolderFile::Stored);
     }
-    Ok(entry(name, &document).map_or_else(Found::Other, |entry| Found::Result(Box::new(entry))))
+    Ok(entry(name, &document)
+        .map_or_else(FolderFile::Other, |entry| FolderFile::Result(Box::new(entry))))
 }

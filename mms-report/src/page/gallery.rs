@@ -32,7 +32,7 @@ pub fn page(entry: &Entry, run: RunStudy<'_>) -> anyhow::Result<Page> {
     }
     let mut page = Page::new(&title, results, Vec::new());
     if page.fields.is_empty() {
-        page.fields.push(field::Shown::of_gallery(entry)?);
+        page.fields.push(field::FieldOnPage::of_gallery(entry)?);
     }
     Ok(page)
 }
@@ -119,7 +119,7 @@ mod tests {
         for entry in sampled(FIELDS, 7) {
             let page =
                 std::fs::read_to_string(folder.join(format!("{}.html", entry.name))).unwrap();
-            let shown = field::Shown::of_gallery(entry).unwrap();
+            let shown = field::FieldOnPage::of_gallery(entry).unwrap();
             let formulas = shown.formulas().expect("formulas");
             assert!(page.contains(formulas), "{}: its formulas changed: {WRITE}", entry.name);
         }

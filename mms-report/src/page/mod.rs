@@ -34,7 +34,7 @@ mod verify;
 
 use std::path::PathBuf;
 
-use field::Shown;
+use field::FieldOnPage;
 use maud::{Markup, html};
 use mms_documents::provenance::{Provenance, VERSION};
 use serde::Deserialize;
@@ -93,7 +93,7 @@ impl Verdicts {
 }
 
 /// The way to read a kind of document.
-struct Kind {
+struct DocumentKind {
     /// The `kind` of its provenance.
     name: &'static str,
     /// The heading above all documents of the kind.
@@ -103,7 +103,7 @@ struct Kind {
     has_curves: bool,
 }
 
-impl Kind {
+impl DocumentKind {
     const fn of<T: Section + DeserializeOwned + 'static>(
         name: &'static str,
         heading: &'static str,
@@ -120,17 +120,25 @@ impl Kind {
 }
 
 /// The kinds of documents, in their order on a page.
-const KINDS: &[Kind] = &[
-    Kind { name: "study", heading: "Convergence studies", read: study::read, has_curves: true },
-    Kind::of::<mms_documents::judge::Judge>("judge", "Judged results").with_curves(),
-    Kind::of::<mms_documents::diagnose::Diagnose>("diagnose", "Diagnoses"),
-    Kind::of::<mms_documents::campaign::Campaign>("campaign", "Campaigns").with_curves(),
-    Kind::of::<mms_documents::verify::Verify>("verify", "Verification matrix"),
-    Kind::of::<mms_documents::tradeoff::Tradeoff>("tradeoff", "Error against cost").with_curves(),
-    Kind::of::<mms_documents::extremes::Extremes>("extremes", "At the limits").with_curves(),
-    Kind::of::<mms_documents::verify::VerifyDefects>("defects", "Deliberate mistakes"),
-    Kind::of::<mms_documents::accuracy::Accuracy>("accuracy", "Accuracy of formulas").with_curves(),
-    Kind::of::<mms_documents::run::Run>("run", "Single runs"),
+const KINDS: &[DocumentKind] = &[
+    DocumentKind {
+        name: "study",
+        heading: "Convergence studies",
+        read: study::read,
+        has_curves: true,
+    },
+    DocumentKind::of::<mms_documents::judge::Judge>("judge", "Judged results").with_curves(),
+    DocumentKind::of::<mms_documents::diagnose::Diagnose>("diagnose", "Diagnoses"),
+    DocumentKind::of::<mms_documents::campaign::Campaign>("campaign", "Campaigns").with_curves(),
+    DocumentKind::of::<mms_documents::verify::Verify>("verify", "Verification matrix"),
+    DocumentKind::of::<mms_documents::tradeoff::Tradeoff>("tradeoff", "Error against cost")
+        .with_curves(),
+    DocumentKind::of::<mms_documents::extremes::Extremes>("extremes", "At the limits")
+        .with_curves(),
+    DocumentKind::of::<mms_documents::verify::VerifyDefects>("defects", "Deliberate mistakes"),
+    DocumentKind::of::<mms_documents::accuracy::Accuracy>("accuracy", "Accuracy of formulas")
+        .with_curves(),
+    DocumentKind::of::<mms_documents::run::Run>("run", "Single runs"),
 ];
 
 /// A result on the page.
@@ -152,7 +160,7 @@ pub struct Page {
     /// The results in the order of [`KINDS`], then of their files.
     entries: Vec<Entry>,
     /// The fields of the entries.
-    fields: Vec<Shown>,
+    fields: Vec<FieldOnPage>,
     /// Files that are not shown, and why.
     set_aside: Vec<String>,
     /// The files of the folder from which the page is made.
@@ -177,7 +185,7 @@ impl Page {
 
     /// The files from which the page is made: results, and the fields that they belong to.
     pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
-        self.read.iter().chain(self.fields.iter().flat_map(Shown::files))
+        self.read.iter().chain(self.fields.iter().flat_map(FieldOnPage::files))
     }
 
     /// The verdicts on all results together.

@@ -8,7 +8,9 @@ use mms_documents::provenance::Provenance;
 use mms_documents::tradeoff as documents;
 use mms_files::words::{bytes, duration};
 use mms_files::write::{pretty, write_files};
-use mms_lab::tradeoff::search::{Cost, Found, Goal, Plan, Prediction, Trial, cost};
+use mms_lab::tradeoff::search::{
+    Cost, Goal, Prediction, SearchProblem, TradeoffResult, Trial, cost,
+};
 use mms_lab::tradeoff::setting::{Axis, Setting};
 use mms_spec::foreign::Foreign;
 
@@ -16,7 +18,7 @@ use super::front::front;
 use super::page::Section as _;
 use super::plot::Figure;
 use crate::shown::Shown;
-use crate::table::Table;
+use crate::table::TextTable;
 use crate::text::next;
 
 /// The result of a search for a field.
@@ -28,9 +30,9 @@ pub struct Report<'a> {
     /// The unit of the displacement, if the field states units.
     pub unit: Option<String>,
     /// The plan of the search.
-    pub plan: Plan,
+    pub plan: SearchProblem,
     /// The runs and predictions of the search.
-    pub found: Found,
+    pub found: TradeoffResult,
     /// Whether all runs are shown, or only runs on the front, runs of the default and runs that stopped.
     pub all: bool,
     /// The command that runs a setting on a grid.
@@ -154,10 +156,10 @@ impl Report<'_> {
     }
 
     /// The runs from cheap to expensive, and runs that stopped.
-    fn table(&self) -> Table {
+    fn table(&self) -> TextTable {
         let caption = format!("{}: error against cost", self.field.shown());
         let header = ["", "cells", "linf", "particle-steps", "time", "memory", "setting"];
-        let mut table = Table::new(caption, header).right(1..6);
+        let mut table = TextTable::new(caption, header).right(1..6);
         let front = self.front();
         let mut ended: Vec<_> =
             self.trials().iter().filter_map(|trial| Some((self.point(trial)?, trial))).collect();
@@ -331,7 +333,7 @@ impl Shown for Report<'_> {
         )
     }
 
-    fn tables(&self) -> Vec<Table> {
+    fn tables(&self) -> Vec<TextTable> {
         vec![self.table()]
     }
 

@@ -17,7 +17,7 @@ use crate::field::{Condition, Face, ManufacturedField};
 use crate::lattice::Lattice;
 use crate::nodal::{Nodal, Window, halves};
 use crate::real::{Matrix, Real, Vector};
-use crate::stencil::{Payload, Stencil as _, Tensor};
+use crate::stencil::{Payload, ProductStencil, Stencil as _};
 use crate::tensor::{cofactor, components, jacobian};
 
 /// The present position of a piece of a face.
@@ -40,7 +40,7 @@ pub struct Point<'a, T: Real, const D: usize> {
 
 /// A function that finds the nodes and weights of a point of a grid.
 pub type StencilOf<T, const D: usize> =
-    fn(&Lattice<T, D>, &Vector<T, D>) -> Result<Tensor<T, D>, Cause>;
+    fn(&Lattice<T, D>, &Vector<T, D>) -> Result<ProductStencil<T, D>, Cause>;
 
 /// The pieces of the faces with tractions; entry `k` of every array belongs to piece `k`.
 pub struct Traction<T, const D: usize> {

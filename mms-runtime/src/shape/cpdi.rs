@@ -21,7 +21,7 @@ use crate::lattice::Lattice;
 use crate::nodal::{Nodal, Window};
 use crate::real::{Matrix, Real, Vector};
 use crate::spline;
-use crate::stencil::{Gathered, Members, Payload, Stencil, Tensor, Wanted};
+use crate::stencil::{Gathered, Members, Payload, ProductStencil, Stencil, Wanted};
 use crate::tensor::{deformation_gradient, inverse};
 
 /// GIMP on parallelepipeds: shear and rotation are followed, without gaps or overlaps in a uniform F.
@@ -34,7 +34,7 @@ const MOST_CORNERS: usize = 8;
 #[derive(Clone, Debug)]
 pub struct Corners<T, const D: usize> {
     /// The hat functions at the corners; only the first 2^D are used.
-    hats: [Tensor<T, D>; MOST_CORNERS],
+    hats: [ProductStencil<T, D>; MOST_CORNERS],
     /// 2^-D R^-T s_c.
     direction: [[[T; PACK]; D]; MOST_CORNERS],
     /// R s_c, from the particle to the corner.
@@ -94,7 +94,7 @@ impl Shape for Cpdi {
     fn point<T: Real, const D: usize>(
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
-    ) -> Result<Tensor<T, D>, Cause> {
+    ) -> Result<ProductStencil<T, D>, Cause> {
         spline::point::<T, D, 1, 2>(lattice, position)
     }
 }
@@ -102,7 +102,7 @@ impl Shape for Cpdi {
 impl<T: Real, const D: usize> Default for Corners<T, D> {
     fn default() -> Self {
         let nothing = [[[T::zero(); PACK]; D]; MOST_CORNERS];
-        Self { hats: [Tensor::new(); MOST_CORNERS], direction: nothing, apart: nothing }
+        Self { hats: [ProductStencil::new(); MOST_CORNERS], direction: nothing, apart: nothing }
     }
 }
 

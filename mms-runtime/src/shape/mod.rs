@@ -23,7 +23,7 @@ use crate::failure::Cause;
 use crate::lanes::components;
 use crate::lattice::Lattice;
 use crate::real::{Matrix, Real, Vector};
-use crate::stencil::{Stencil, Tensor};
+use crate::stencil::{ProductStencil, Stencil};
 
 extension_list! {
     /// The shape functions.
@@ -105,7 +105,7 @@ pub trait Shape: Sized + 'static {
     fn point<T: Real, const D: usize>(
         lattice: &Lattice<T, D>,
         position: &Vector<T, D>,
-    ) -> Result<Tensor<T, D>, Cause>;
+    ) -> Result<ProductStencil<T, D>, Cause>;
 }
 
 /// Calls [`Shape::place`] with the instructions of every processor, as a function that is not inlined, so that it is compiled

@@ -13,7 +13,7 @@ use crate::lattice::Lattice;
 use crate::nodal::Nodal;
 use crate::particle::Columns;
 use crate::real::Real;
-use crate::stencil::{Stencil, Tensor, Wanted};
+use crate::stencil::{ProductStencil, Stencil, Wanted};
 use crate::threads::Parts as _;
 use crate::transfer::Reads;
 use crate::transfer::Transfer;
@@ -38,14 +38,14 @@ pub(super) struct Advance<'a, 'p, T: Real, const D: usize> {
 }
 
 /// True only if all new numbers are finite and J > 0. May be false although they are.
-pub(super) type Sound = bool;
+pub(super) type IsProvedSound = bool;
 
 impl<T: Real, const D: usize> Advance<'_, '_, T, D> {
     /// Updates the particles with these weights.
     pub fn with<St: Stencil<T, D>>(
         self,
         weights: &dyn Weigh<T, D, St>,
-    ) -> Result<Sound, (usize, Cause)> {
+    ) -> Result<IsProvedSound, (usize, Cause)> {
         best(Weighted { pass: self, weights })
     }
 }
@@ -61,7 +61,7 @@ where
     T: Real,
     St: Stencil<T, D>,
 {
-    type Output = Result<Sound, (usize, Cause)>;
+    type Output = Result<IsProvedSound, (usize, Cause)>;
     const GAINS_BY_AVX512: bool = St::GAINS_BY_AVX512;
 
     #[inline(always)]
@@ -105,7 +105,7 @@ impl<T: Real, const D: usize> Nodes<'_, T, D> {
         k: usize,
         stencil: &impl Stencil<T, D>,
         rest: &mut M::Eight,
-    ) -> Sound {
+    ) -> IsProvedSound {
         let Self { scene, steps, velocity, .. } = self;
         let degree = scene.lattice.degree;
         let zero = simd.splat(T::zero());
@@ -221,7 +221,7 @@ impl<T: Real, const D: usize> Nodes<'_, T, D> {
 #[inline(never)]
 fn along_first<T: Real, const D: usize>(
     lattice: &Lattice<T, D>,
-    stencil: &Tensor<T, D>,
+    stencil: &ProductStencil<T, D>,
     nodes: &[Nodal<T>],
 ) -> [T; PACK] {
     let simd = T::PlainSimd::from(Plain);
@@ -278,7 +278,7 @@ impl<T: Real, const D: usize> Residual<'_, '_, T, D> {
     pub fn with<St: Stencil<T, D>>(
         self,
         weights: &dyn Weigh<T, D, St>,
-    ) -> Result<Sound, (usize, Cause)> {
+    ) -> Result<IsProvedSound, (usize, Cause)> {
         best(Weighted { pass: self, weights })
     }
 }
@@ -288,7 +288,7 @@ where
     T: Real,
     St: Stencil<T, D>,
 {
-    type Output = Result<Sound, (usize, Cause)>;
+    type Output = Result<IsProvedSound, (usize, Cause)>;
     const GAINS_BY_AVX512: bool = St::GAINS_BY_AVX512;
 
     #[inline(always)]

@@ -4,8 +4,8 @@ use std::time::Instant;
 
 use super::Solver;
 use super::clock::{Seconds, timed};
-use super::g2p::{Advance, Residual, Sound, Source, Steps};
-use super::p2g::{Added, Map, Stop};
+use super::g2p::{Advance, IsProvedSound, Residual, Source, Steps};
+use super::p2g::{Addend, SlabError, SlabSums};
 use super::relaxation::norm;
 use super::sorting::When;
 use super::weights::Scene;
@@ -73,14 +73,14 @@ where
             return self.map_kicked(mass, force, kick);
         }
         if mass || velocity.is_some() {
-            self.add_to_nodes(Added::Momentum)?;
+            self.add_to_nodes(Addend::Momentum)?;
             self.complete_momentum(mass)?;
         }
         if let Some(time) = velocity {
             self.find_velocity(time)?;
         }
         if let Some(time) = acceleration {
-            self.add_to_nodes(Added::Force)?;
+            self.add_to_nodes(Addend::Force)?;
             self.find_acceleration(time)?;
         }
         if let Some((time_step, time)) = kick {
@@ -129,9 +129,9 @@ pub(super) enum Forces {
 }
 
 fn both_sound(
-    first: Result<Sound, (usize, Cause)>,
-    second: Result<Sound, (usize, Cause)>,
-) -> Result<Sound, (usize, Cause)> {
+    first: Result<IsProvedSound, (usize, Cause)>,
+    second: Result<IsProvedSound, (usize, Cause)>,
+) -> Result<IsProvedSound, (usize, Cause)> {
     Ok(first? & second?)
 }
 
@@ -152,16 +152,16 @@ where
     }
 
     /// Overwrites the nodes with sums over the particles. Sorts the particles, and starts again, if one has left its slab.
-    fn add_to_nodes(&mut self, added: Added<T>) -> Result<(), Failure> {
+    fn add_to_nodes(&mut self, added: Addend<T>) -> Result<(), Failure> {
         let mut sorted = false;
         loop {
             match self.try_to_add(added) {
                 Ok(()) => return Ok(()),
-                Err(Stop::Failed(p, cause)) => return Err(self.failure(p, cause)),
-                Err(Stop::Strayed(p)) if sorted => {
+                Err(SlabError::Failed(p, cause)) => return Err(self.failure(p, cause)),
+                Err(SlabError::Strayed(p)) if sorted => {
                     return Err(self.failure(p, Cause::lost(&self.particles.position(p))));
                 }
-                Err(Stop::Strayed(_)) => {
+                Err(SlabError::Strayed(_)) => {
                     self.sort(When::Now);
                     // The particles have not changed since their data were kept.
                     self.keep();
@@ -181,15 +181,15 @@ where
         kept.clear();
     }
 
-    fn try_to_add(&mut self, added: Added<T>) -> Result<(), Stop> {
+    fn try_to_add(&mut self, added: Addend<T>) -> Result<(), SlabError> {
         let Self { grid, particles, domains, kept, slabs, transfer, .. } = self;
         let (field, formulation, time) = (self.field, self.formulation, self.time_of_force);
         let Grid { lattice, momentum, force, .. } = grid;
         let nodes: [&mut [Nodal<T>]; 2] = match added {
-            Added::Momentum | Added::Kicked(_) => [momentum, &mut []],
-            Added::Residual => [&mut self.residual[0], &mut []],
-            Added::Force | Added::Stress => [&mut [], force],
-            Added::Both => [momentum, force],
+            Addend::Momentum | Addend::Kicked(_) => [momentum, &mut []],
+            Addend::Residual => [&mut self.residual[0], &mut []],
+            Addend::Force | Addend::Stress => [&mut [], force],
+            Addend::Both => [momentum, force],
         };
         let seconds = &mut self.seconds;
         let [first, second] = nodes;
@@ -202,7 +202,7 @@ where
         let (moves, transfer) = (self.formulation.moves, *transfer);
         let scene = Scene { lattice, moves, transfer, reference_position, kept };
         let domains = &**domains;
-        let map = Map { scene, domains, particles, field, added, formulation, time };
+        let map = SlabSums { scene, domains, particles, field, addend: added, formulation, time };
         let start = Instant::now();
         let taken =
             slabs.each([first, second], &|slab, nodes| map.slab(slab, nodes), &Seconds::sum)?;
@@ -220,12 +220,12 @@ where
         (time_step, time): (T, T),
     ) -> Result<(), Failure> {
         if self.transfer.reads() == Reads::Nothing {
-            self.add_to_nodes(Added::Kicked(time_step))?;
+            self.add_to_nodes(Addend::Kicked(time_step))?;
             self.add_tractions(force, Some(time_step))?;
             self.complete_momentum(mass)?;
             return self.find_velocity(time);
         }
-        self.add_to_nodes(Added::Both)?;
+        self.add_to_nodes(Addend::Both)?;
         self.complete_momentum(mass)?;
         self.add_tractions(force, None)?;
         let Self { grid, field, boundary, seconds, .. } = self;
@@ -291,7 +291,7 @@ where
 
     /// S+ r.
     fn map_residual(&mut self) -> Result<(), Failure> {
-        self.add_to_nodes(Added::Residual)?;
+        self.add_to_nodes(Addend::Residual)?;
         let Self { grid, boundary, residual: [sum, image], seconds, .. } = self;
         timed(&mut seconds.grid, || {
             boundary.fold(sum);
@@ -351,15 +351,15 @@ where
     /// The norm of forces at the nodes, with the particles in their present state.
     pub(super) fn forces(&mut self, asked: Forces) -> Result<f64, Failure> {
         if asked == Forces::OfStress {
-            self.add_to_nodes(Added::Stress)?;
+            self.add_to_nodes(Addend::Stress)?;
             return Ok(norm::<T, D>(&self.grid.force));
         }
         let time = self.time();
         (self.keeps_weights, self.time_of_force) = (false, time);
         self.keep();
-        self.add_to_nodes(Added::Momentum)?;
+        self.add_to_nodes(Addend::Momentum)?;
         self.complete_momentum(true)?;
-        self.add_to_nodes(Added::Force)?;
+        self.add_to_nodes(Addend::Force)?;
         self.add_tractions(time, None)?;
         let Self { grid, boundary, .. } = self;
         boundary.fold(&mut grid.force);

@@ -20,7 +20,7 @@ use crate::lattice::Lattice;
 use crate::nodal::{LAST, Window};
 use crate::particle::{Particles, material_points};
 use crate::real::{Real, Vector};
-use crate::stencil::{Members, Payload, Stencil, Tensor};
+use crate::stencil::{Members, Payload, ProductStencil, Stencil};
 use crate::tensor::matrix_is_finite;
 
 /// The number of particles whose stresses are computed together: few enough for the stresses to stay in the cache.
@@ -35,7 +35,7 @@ const TIMED: usize = 8;
 
 /// The quantity that is added to the nodes.
 #[derive(Clone, Copy)]
-pub(super) enum Added<T> {
+pub(super) enum Addend<T> {
     /// m, and m v, where v includes the linear velocity of each particle (APIC).
     Momentum,
     /// m, and m r with the residual velocity r.
@@ -50,52 +50,52 @@ pub(super) enum Added<T> {
     Kicked(T),
 }
 
-impl<T> Added<T> {
+impl<T> Addend<T> {
     /// Whether the quantity includes forces.
     fn has_force(&self) -> bool {
-        !matches!(self, Added::Momentum | Added::Residual)
+        !matches!(self, Addend::Momentum | Addend::Residual)
     }
 }
 
 /// The reason why the sums of a slab ended early.
-pub(super) enum Stop {
+pub(super) enum SlabError {
     /// A particle has left the nodes of its slab.
     Strayed(usize),
     /// A particle has no weights or no stress.
     Failed(usize, Cause),
 }
 
-impl From<(usize, Cause)> for Stop {
+impl From<(usize, Cause)> for SlabError {
     fn from((particle, cause): (usize, Cause)) -> Self {
-        Stop::Failed(particle, cause)
+        SlabError::Failed(particle, cause)
     }
 }
 
 /// The sums of the particles of one slab.
-pub(super) struct Map<'a, T: Real, const D: usize, F: ?Sized> {
+pub(super) struct SlabSums<'a, T: Real, const D: usize, F: ?Sized> {
     pub scene: Scene<'a, T, D>,
     pub domains: &'a dyn Domains<T, D>,
     pub particles: &'a Particles<T, D>,
     pub field: &'a F,
-    pub added: Added<T>,
+    pub addend: Addend<T>,
     pub formulation: Configuration<T, D>,
     /// The time at which the body force is evaluated.
     pub time: T,
 }
 
-impl<T: Real, const D: usize, F> Map<'_, T, D, F>
+impl<T: Real, const D: usize, F> SlabSums<'_, T, D, F>
 where
     F: ManufacturedField<T, D> + ?Sized,
 {
     /// Adds to momentum and force of the nodes in the slab's window. Returns the seconds that each part of the timed
     /// batches took.
-    pub fn slab(&self, slab: &Slab, nodes: [Window<'_, T>; 2]) -> Result<Seconds, Stop> {
+    pub fn slab(&self, slab: &Slab, nodes: [Window<'_, T>; 2]) -> Result<Seconds, SlabError> {
         let [mut momentum, mut force] = nodes;
         let mut seconds = Seconds::default();
         let mut stress = [Matrices::zeros(); PART / PACK];
         let mut hoop_stress = [[T::zero(); PACK]; PART / PACK];
         let mut body_force = [[Vector::zeros(); PACK]; FORCED / PACK];
-        let has_force = self.added.has_force();
+        let has_force = self.addend.has_force();
         // Packs do not depend on the slabs: the first and the last one may contain particles of other slabs.
         let Range { start, end } = slab.particles;
         for forced in parts(start / PACK..end.div_ceil(PACK), FORCED / PACK) {
@@ -115,7 +115,7 @@ where
                 let sums = Sums {
                     scene: self.scene,
                     particles: self.particles,
-                    added: self.added,
+                    added: self.addend,
                     body_force: &body_force[part.start - forced.start..][..part.len()],
                     packs: part,
                     stress,
@@ -137,7 +137,7 @@ where
         part: Range<usize>,
         stress: &mut [Matrices<T, D>],
         hoop_stress: &mut [[T; PACK]],
-    ) -> Result<(), Stop> {
+    ) -> Result<(), SlabError> {
         let all = self.particles;
         let gradients = &all.displacement_gradient.packs()[part.clone()];
         let reference = &all.reference_position.packs()[part.clone()];
@@ -184,7 +184,7 @@ fn parts(range: Range<usize>, count: usize) -> impl Iterator<Item = Range<usize>
 pub(super) struct Sums<'a, T: Real, const D: usize> {
     scene: Scene<'a, T, D>,
     particles: &'a Particles<T, D>,
-    added: Added<T>,
+    added: Addend<T>,
     packs: Range<usize>,
     /// The stresses, from the first of the `packs` on.
     stress: &'a [Matrices<T, D>],
@@ -197,7 +197,7 @@ pub(super) struct Sums<'a, T: Real, const D: usize> {
 
 impl<T: Real, const D: usize> Sums<'_, T, D> {
     /// Adds to the nodes with these weights.
-    pub fn with<St: Stencil<T, D>>(self, weights: &dyn Weigh<T, D, St>) -> Result<(), Stop> {
+    pub fn with<St: Stencil<T, D>>(self, weights: &dyn Weigh<T, D, St>) -> Result<(), SlabError> {
         best(Scatter { sums: self, weights })
     }
 }
@@ -209,7 +209,7 @@ struct Scatter<'a, T: Real, const D: usize, St> {
 }
 
 impl<T: Real, const D: usize, St: Stencil<T, D>> Work<T> for Scatter<'_, T, D, St> {
-    type Output = Result<(), Stop>;
+    type Output = Result<(), SlabError>;
     const GAINS_BY_AVX512: bool = St::GAINS_BY_AVX512;
 
     #[inline(always)]
@@ -234,7 +234,7 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Work<T> for Scatter<'_, T, D, S
                 simd.fetch(particles.displacement_gradient.packs(), pack + count);
                 let members = slab.members(PACK * pack);
                 if let Some(p) = stencil.beyond(members, &slab.window) {
-                    return Err(Stop::Strayed(PACK * pack + p));
+                    return Err(SlabError::Strayed(PACK * pack + p));
                 }
                 let [momentum, force] = &mut nodes;
                 let nodes = [momentum.reborrow(), force.reborrow()];
@@ -248,7 +248,7 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Work<T> for Scatter<'_, T, D, S
         let mut all = stress.iter().flat_map(|stress| (0..PACK).map(|k| stress.get(k)));
         let odd = all.position(|stress| !matrix_is_finite(&stress));
         let cause = Cause::NotFinite { quantity: "stress" };
-        odd.map_or(Ok(()), |p| Err(Stop::Failed(PACK * range.start + p, cause)))
+        odd.map_or(Ok(()), |p| Err(SlabError::Failed(PACK * range.start + p, cause)))
     }
 }
 
@@ -262,7 +262,7 @@ fn first_piola_kirchhoff<T: Real>(hoop_strain: &[[T; PACK]], hoop_stress: &mut [
 #[inline(never)]
 fn add_along_first<T: Real, const D: usize>(
     lattice: &Lattice<T, D>,
-    stencil: &Tensor<T, D>,
+    stencil: &ProductStencil<T, D>,
     forces: [T; PACK],
     members: Members,
     nodes: Window<'_, T>,
@@ -329,7 +329,7 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
     fn add<M: Simd<T>>(
         self,
         simd: M,
-        added: Added<T>,
+        added: Addend<T>,
         lattice: &Lattice<T, D>,
         [mut momentum, force]: [Window<'_, T>; 2],
         rest: &mut M::Eight,
@@ -338,8 +338,8 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
         let Arrays { velocity, affine, residual, .. } = packs;
         // One call adds values alone, another one everything else: each is compiled once.
         let alone = match (added, residual, affine) {
-            (Added::Residual, Some(residual), _) => Some(&residual[k]),
-            (Added::Momentum | Added::Both, _, None) => Some(&velocity[k]),
+            (Addend::Residual, Some(residual), _) => Some(&residual[k]),
+            (Addend::Momentum | Addend::Both, _, None) => Some(&velocity[k]),
             _ => None,
         };
         if let Some(velocity) = alone {
@@ -347,11 +347,11 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
             stencil.scatter(simd, lattice, &payload, members, momentum.reborrow());
         }
         let (share, with_momentum) = match added {
-            Added::Force | Added::Stress | Added::Both => (T::one(), false),
-            Added::Kicked(time_step) => (time_step, true),
+            Addend::Force | Addend::Stress | Addend::Both => (T::one(), false),
+            Addend::Kicked(time_step) => (time_step, true),
             // Momentum with zero slopes.
-            Added::Momentum if affine.is_some() => (T::zero(), true),
-            Added::Momentum | Added::Residual => return,
+            Addend::Momentum if affine.is_some() => (T::zero(), true),
+            Addend::Momentum | Addend::Residual => return,
         };
         let mut numbers = [simd.splat(T::zero()); HALF];
         let mut moments = None;
@@ -362,7 +362,7 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
                 moments = Some(scaled(simd, columns(simd, &affine[k]), mass));
             }
         }
-        if !matches!(added, Added::Stress) {
+        if !matches!(added, Addend::Stress) {
             self.add_body_force(simd, simd.splat(share), &mut numbers);
         }
         let slopes = Some(self.stress(simd, simd.splat(share), rest));

@@ -5,7 +5,7 @@ use super::clock::{Clock, Seconds};
 use super::need::Need;
 use super::slabs::Slabs;
 use super::sorting::When;
-use super::weights::Kind;
+use super::weights::ShapeProperties;
 use crate::axisymmetric::{Rings, Station, hoop_strain};
 use crate::body::{Fill, Filling, Piece, bounding_box};
 use crate::boundary::{Boundary, is_wall};
@@ -46,12 +46,12 @@ where
         setup: &Setup,
         cells: &Division,
     ) -> Result<Self, Refusal> {
-        Self::of_kind(Kind::of::<S>(), field, formulation, setup, cells)
+        Self::of_kind(ShapeProperties::of::<S>(), field, formulation, setup, cells)
     }
 
     /// Creates the body with a shape function of this kind.
     fn of_kind(
-        kind: Kind<T, D>,
+        kind: ShapeProperties<T, D>,
         field: &'f F,
         formulation: FormulationName,
         setup: &Setup,

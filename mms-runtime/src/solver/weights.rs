@@ -7,8 +7,8 @@
 use mms_math::dispatch::{Work, best};
 use mms_math::simd::Simd;
 
-use super::g2p::{Advance, Residual, Sound};
-use super::p2g::{Stop, Sums};
+use super::g2p::{Advance, IsProvedSound, Residual};
+use super::p2g::{SlabError, Sums};
 use crate::boundary::traction::{Point, StencilOf};
 use crate::column::PACK;
 use crate::column::{Matrices, Pack as _, Packs, Vectors};
@@ -51,7 +51,7 @@ pub(super) type CachedDomains<T, const D: usize> = (Vectors<T, D>, Matrices<T, D
 
 /// A shape function as a value: the properties that a solver reads.
 #[derive(Clone, Copy)]
-pub(super) struct Kind<T: Real, const D: usize> {
+pub(super) struct ShapeProperties<T: Real, const D: usize> {
     /// [`Shape::DEGREE`].
     pub degree: usize,
     /// [`Shape::NEAR`].
@@ -70,7 +70,7 @@ pub(super) struct Kind<T: Real, const D: usize> {
 
 type DomainsOf<T, const D: usize> = fn(&[Matrix<f64, D>]) -> Box<dyn Domains<T, D>>;
 
-impl<T: Real, const D: usize> Kind<T, D> {
+impl<T: Real, const D: usize> ShapeProperties<T, D> {
     pub fn of<S: Shape>() -> Self {
         Self {
             degree: S::DEGREE,
@@ -98,13 +98,13 @@ pub(super) trait Domains<T: Real, const D: usize>: Send + Sync {
     fn reorder(&mut self, order: &mut [u32]);
 
     /// P2G of some particles.
-    fn scatter(&self, sums: Sums<'_, T, D>) -> Result<(), Stop>;
+    fn scatter(&self, sums: Sums<'_, T, D>) -> Result<(), SlabError>;
 
     /// G2P of some particles.
-    fn advance(&self, advance: Advance<'_, '_, T, D>) -> Result<Sound, (usize, Cause)>;
+    fn advance(&self, advance: Advance<'_, '_, T, D>) -> Result<IsProvedSound, (usize, Cause)>;
 
     /// Computes the residual velocities of some particles: the part that the grid does not represent.
-    fn residual(&self, residual: Residual<'_, '_, T, D>) -> Result<Sound, (usize, Cause)>;
+    fn residual(&self, residual: Residual<'_, '_, T, D>) -> Result<IsProvedSound, (usize, Cause)>;
 }
 
 /// Computes weights.
@@ -131,15 +131,15 @@ impl<T: Real, const D: usize, S: Shape> Domains<T, D> for Shaped<T, D, S> {
         self.0.fill_up();
     }
 
-    fn scatter(&self, sums: Sums<'_, T, D>) -> Result<(), Stop> {
+    fn scatter(&self, sums: Sums<'_, T, D>) -> Result<(), SlabError> {
         sums.with::<S::Stencil<T, D>>(self)
     }
 
-    fn advance(&self, advance: Advance<'_, '_, T, D>) -> Result<Sound, (usize, Cause)> {
+    fn advance(&self, advance: Advance<'_, '_, T, D>) -> Result<IsProvedSound, (usize, Cause)> {
         advance.with::<S::Stencil<T, D>>(self)
     }
 
-    fn residual(&self, residual: Residual<'_, '_, T, D>) -> Result<Sound, (usize, Cause)> {
+    fn residual(&self, residual: Residual<'_, '_, T, D>) -> Result<IsProvedSound, (usize, Cause)> {
         residual.with::<S::Stencil<T, D>>(self)
     }
 }

@@ -3,7 +3,7 @@
 //! [`scatter`](super::scatter) and [`gather`](super::gather).
 
 use super::gather::{Summed, Sums};
-use super::tensor::{Along, Tensor};
+use super::tensor::{Along, ProductStencil};
 use super::{HALF, Members, PACK, Payload};
 use crate::nodal::{Nodal, Window};
 use crate::real::Real;
@@ -14,7 +14,7 @@ const AXES: usize = 3;
 /// The largest number of kinds of gradient weights: slopes and moments.
 const GRADIENTS: usize = 2;
 
-impl<T: Real, const D: usize> Tensor<T, D> {
+impl<T: Real, const D: usize> ProductStencil<T, D> {
     fn nodes_along(&self, axis: usize) -> usize {
         if axis < D { self.width } else { 1 }
     }
@@ -79,7 +79,7 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
     }
 }
 
-impl<T: Real, const D: usize> Tensor<T, D> {
+impl<T: Real, const D: usize> ProductStencil<T, D> {
     /// The sums over the nodes of every particle, with these kinds of gradient weights.
     fn gather_alone(
         &self,

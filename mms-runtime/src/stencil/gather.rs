@@ -4,14 +4,14 @@
 use mms_math::dispatch::Work;
 use mms_math::simd::Simd;
 
-use super::tensor::{Along, Sharing, Tensor};
+use super::tensor::{Along, ProductStencil, Sharing};
 use super::{HALF, PACK, eights, numbers};
 use crate::nodal::Nodal;
 use crate::real::Real;
 
 /// The sums to compute, and the nodes.
 pub(super) struct Sums<'a, T, const D: usize, const K: usize> {
-    pub stencil: &'a Tensor<T, D>,
+    pub stencil: &'a ProductStencil<T, D>,
     /// The `K` kinds of gradient weights, which replace the weights along one axis: slopes, moments.
     pub gradient_weights: [&'a Along<T, D>; K],
     pub nodes: &'a [Nodal<T>],
@@ -32,7 +32,7 @@ struct Axis<F, const W: usize, const K: usize> {
 }
 
 /// A row of nodes along the first axis, for each half.
-type Row<'a, T, const W: usize> = [&'a [Nodal<T>; W]; 2];
+type NodeRow<'a, T, const W: usize> = [&'a [Nodal<T>; W]; 2];
 
 /// The sums over `W` nodes along every axis.
 struct Over<'a, T, const D: usize, const K: usize, const W: usize>(Sums<'a, T, D, K>);
@@ -153,7 +153,7 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
 
     /// The nodes of a row.
     #[inline(always)]
-    fn nodes<const W: usize>(&self, first: [u32; 2], [k1, k2]: [usize; 2]) -> Row<'_, T, W> {
+    fn nodes<const W: usize>(&self, first: [u32; 2], [k1, k2]: [usize; 2]) -> NodeRow<'_, T, W> {
         let stride = |a: usize| if a < D { self.stencil.stride[a] } else { 0 };
         let apart = k1 as u32 * stride(1) + k2 as u32 * stride(2);
         std::array::from_fn(|half| {
@@ -211,7 +211,7 @@ impl<T: Real, const D: usize, const K: usize> Sums<'_, T, D, K> {
         &self,
         simd: M,
         along: &Axis<M::Eight, W, K>,
-        [one, two]: Row<'_, T, W>,
+        [one, two]: NodeRow<'_, T, W>,
     ) -> Summed<M::Eight, D, K> {
         let zero = simd.splat(-T::zero());
         let mut row = Summed { value: [zero; D], gradient_weights: [[[zero; D]; D]; K] };

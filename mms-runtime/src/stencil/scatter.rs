@@ -10,7 +10,7 @@
 
 use mms_math::simd::Simd;
 
-use super::tensor::{Along, Sharing, Tensor};
+use super::tensor::{Along, ProductStencil, Sharing};
 use super::{ALL, HALF, Members, Payload};
 use crate::nodal::Window;
 use crate::real::Real;
@@ -18,7 +18,7 @@ use crate::real::Real;
 /// The data to add to the nodes, with gradient weights (`GRADIENTS`) or without.
 pub(super) struct Scatter<'a, M: Simd<T>, T: Real, const D: usize, const GRADIENTS: bool> {
     pub simd: M,
-    pub stencil: &'a Tensor<T, D>,
+    pub stencil: &'a ProductStencil<T, D>,
     pub payload: &'a Payload<M::Eight, D>,
     /// Moments of the weights, if the data have moments.
     pub moment: Option<&'a Along<T, D>>,
@@ -42,7 +42,7 @@ impl<M: Simd<T>, T: Real, const D: usize, const GRADIENTS: bool> Scatter<'_, M, 
     /// particle of each half after the other.
     #[inline(always)]
     pub fn add<const W: usize>(&self, mut nodes: Window<'_, T>) {
-        let Tensor { first, .. } = self.stencil;
+        let ProductStencil { first, .. } = self.stencil;
         let regular = self.stencil.is_regular();
         let sharing = self.stencil.sharing();
         if sharing != Sharing::Apart && self.members == ALL && (W != 3 || regular) {
@@ -145,7 +145,7 @@ impl<M: Simd<T>, T: Real, const D: usize, const GRADIENTS: bool> Scatter<'_, M, 
         gradient_weights: &GradientWeights<M::Eight, D, W>,
         mut nodes: Window<'_, T>,
     ) {
-        let Self { simd, stencil: Tensor { stride, .. }, .. } = self;
+        let Self { simd, stencil: ProductStencil { stride, .. }, .. } = self;
         let simd = *simd;
         let mut along = [[simd.splat(T::zero()); P]; W];
         for k0 in 0..W {
@@ -183,7 +183,7 @@ impl<M: Simd<T>, T: Real, const D: usize, const GRADIENTS: bool> Scatter<'_, M, 
     /// half.
     #[inline(always)]
     fn weights<const P: usize>(&self, from: usize, axis: usize, k: usize) -> [M::Eight; P] {
-        let Self { simd, stencil: Tensor { weight, .. }, .. } = self;
+        let Self { simd, stencil: ProductStencil { weight, .. }, .. } = self;
         let (simd, weight) = (*simd, &weight[axis % D][k]);
         let mut weights = [simd.splat(T::zero()); P];
         if P == HALF {

@@ -48,7 +48,7 @@ pub enum Known {
 /// particles of a pack; the sums depend on nothing else of the shape function.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
-pub struct Tensor<T, const D: usize> {
+pub struct ProductStencil<T, const D: usize> {
     pub(super) weight: Along<T, D>,
     /// The derivatives of the weights, per length.
     pub(super) slope: Along<T, D>,
@@ -71,7 +71,7 @@ pub struct Tensor<T, const D: usize> {
     around: Option<[[T; PACK]; MOST]>,
 }
 
-impl<T: Real, const D: usize> Tensor<T, D> {
+impl<T: Real, const D: usize> ProductStencil<T, D> {
     /// A stencil without nodes.
     #[inline(always)]
     pub fn new() -> Self {
@@ -356,7 +356,7 @@ impl<T: Real, const D: usize> Tensor<T, D> {
 
 /// The sums onto `W` nodes along every axis, in a function that is not inlined, so that they are compiled once.
 struct Onto<'a, T: Real, const D: usize, const W: usize, const GRADIENTS: bool> {
-    stencil: &'a Tensor<T, D>,
+    stencil: &'a ProductStencil<T, D>,
     lattice: &'a Lattice<T, D>,
     payload: Payload<[T; PACK], D>,
     members: Members,
@@ -376,13 +376,13 @@ impl<T: Real, const D: usize, const W: usize, const GRADIENTS: bool> Work<T>
     }
 }
 
-impl<T: Real, const D: usize> Default for Tensor<T, D> {
+impl<T: Real, const D: usize> Default for ProductStencil<T, D> {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl<T: Real, const D: usize> Stencil<T, D> for Tensor<T, D> {
+impl<T: Real, const D: usize> Stencil<T, D> for ProductStencil<T, D> {
     // A register of AVX2 holds eight numbers of single precision, and a single row of nodes has little to sum.
     const GAINS_BY_AVX512: bool = D > 1 && size_of::<T>() == size_of::<f64>();
 
@@ -447,7 +447,7 @@ impl<T: Real, const D: usize> Stencil<T, D> for Tensor<T, D> {
         }
     }
 
-    fn product(&self) -> Option<&Tensor<T, D>> {
+    fn product(&self) -> Option<&ProductStencil<T, D>> {
         Some(self)
     }
 }

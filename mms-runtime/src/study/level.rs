@@ -6,7 +6,7 @@ use crate::method::Division;
 
 /// One level of a study: a run at one resolution.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Level {
+pub struct StudyLevel {
     /// Cells of the body.
     pub cells: Division,
     /// Grid spacing h, the longest edge of a cell.

@@ -18,9 +18,9 @@ mod snapshots;
 pub use balance::Balance;
 pub use deviations::Deviations;
 pub use errors::Errors;
-pub use level::Level;
+pub use level::StudyLevel;
 pub use observer::{Checkpoint, Frame, Observer, Record};
-pub use order::{Orders, orders};
+pub use order::{ObservedOrders, orders};
 pub use phase::{Phase, Phases};
 pub use refinement::{Refinement, differences};
 pub use run::{Details, Diagnostics, Run, Solve, Watch};
@@ -40,6 +40,6 @@ pub fn run_level<T: Solve<D>, const D: usize>(
     method: &Method,
     cells: &Division,
     observer: &mut dyn Observer,
-) -> Result<Level, Refusal> {
+) -> Result<StudyLevel, Refusal> {
     T::run(field, method, cells, Watch::Displacement, observer).map(|run| run.level)
 }

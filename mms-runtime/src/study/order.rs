@@ -1,10 +1,10 @@
 //! Observed orders between levels.
 
-use super::{Level, Point};
+use super::{Point, StudyLevel};
 
 /// The observed orders between two levels, one per norm.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Orders {
+pub struct ObservedOrders {
     /// The order of the norm l1.
     pub l1: Option<f64>,
     /// The order of the norm l2.
@@ -14,6 +14,6 @@ pub struct Orders {
 }
 
 /// The observed orders from one level to another, refined in space; `None` if either run stopped.
-pub fn orders(coarse: &Level, fine: &Level) -> Orders {
+pub fn orders(coarse: &StudyLevel, fine: &StudyLevel) -> ObservedOrders {
     Point::of(fine).orders_from(&Point::of(coarse))
 }

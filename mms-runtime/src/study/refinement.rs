@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::{Deviations, Errors, Level, Point, Run, Series};
+use super::{Deviations, Errors, Point, Run, Series, StudyLevel};
 use crate::extension::UnknownName;
 
 /// The quantity that is refined.
@@ -31,7 +31,7 @@ impl Refinement {
     }
 
     /// The length that is refined: h, or dt.
-    pub fn length(self, level: &Level) -> f64 {
+    pub fn length(self, level: &StudyLevel) -> f64 {
         match self {
             Refinement::Both | Refinement::Space => level.cell_size,
             Refinement::Time => level.time_step,

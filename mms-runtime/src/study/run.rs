@@ -3,7 +3,7 @@
 use super::range::explained;
 use super::relax::relax;
 use super::run_record::{RunRecord, Saved, SavedRecord, Stopwatch};
-use super::{Balance, Deviations, Errors, Level, Observer, Snapshots};
+use super::{Balance, Deviations, Errors, Observer, Snapshots, StudyLevel};
 use crate::failure::{Failure, Refusal};
 use crate::field::ManufacturedField;
 use crate::method::{Division, Method};
@@ -27,7 +27,7 @@ pub enum Watch {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
     /// The run as one level of a study.
-    pub level: Level,
+    pub level: StudyLevel,
     /// The measurements; `None` if the run stopped.
     pub details: Option<Details>,
     /// The times of the parts of all steps.
@@ -174,7 +174,7 @@ fn run<T: Solve<D>, const D: usize>(
             Some(run_record)
         }
     };
-    let level = Level {
+    let level = StudyLevel {
         cells: *cells,
         cell_size: solver.grid().lattice.cell_size.max().to_f64(),
         time_step: solver.present().time_step,

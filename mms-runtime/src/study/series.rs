@@ -2,8 +2,8 @@
 
 use mms_convergence::{ExpectedOrder, Judgement, Sample, Sequence, observed_order};
 
-use super::order::Orders;
-use super::{Errors, Level};
+use super::order::ObservedOrders;
+use super::{Errors, StudyLevel};
 
 /// A norm of errors.
 type Norm = fn(&Errors) -> f64;
@@ -25,7 +25,7 @@ pub struct Point {
 
 impl Point {
     /// The errors of the displacement on a level, refined in space.
-    pub fn of(level: &Level) -> Self {
+    pub fn of(level: &StudyLevel) -> Self {
         let errors = level.errors.as_ref().ok().copied();
         Point { length: level.cell_size, errors, floor: 0.0 }
     }
@@ -36,14 +36,14 @@ impl Point {
     }
 
     /// The observed orders from a coarser point to this one; `None` if a run stopped.
-    pub fn orders_from(&self, coarse: &Point) -> Orders {
+    pub fn orders_from(&self, coarse: &Point) -> ObservedOrders {
         let (Some(e1), Some(e2)) = (&coarse.errors, &self.errors) else {
-            return Orders::default();
+            return ObservedOrders::default();
         };
         let order = |norm: fn(&Errors) -> f64| {
             observed_order([norm(e1), norm(e2)], [coarse.length, self.length])
         };
-        Orders { l1: order(|e| e.l1), l2: order(|e| e.l2), linf: order(|e| e.linf) }
+        ObservedOrders { l1: order(|e| e.l1), l2: order(|e| e.l2), linf: order(|e| e.linf) }
     }
 }
 
@@ -62,7 +62,7 @@ impl Series {
     }
 
     /// The series of the displacement, refined in space.
-    pub fn of(levels: &[Level]) -> Self {
+    pub fn of(levels: &[StudyLevel]) -> Self {
         Self::new(levels.iter().map(Point::of))
     }
 
@@ -109,7 +109,7 @@ impl Series {
 }
 
 /// Judges the levels of a study in space, in any sequence, against an expected order: see [`Series::judge`].
-pub fn judge(levels: &[Level], expected: ExpectedOrder) -> Judgement {
+pub fn judge(levels: &[StudyLevel], expected: ExpectedOrder) -> Judgement {
     Series::of(levels).judge(expected)
 }
 
@@ -183,7 +183,7 @@ mod tests {
         let level = |k: i32| {
             let cell_size = 0.5f64.powi(k);
             let e = cell_size * cell_size;
-            Level {
+            StudyLevel {
                 cells: (8 << k).into(),
                 cell_size,
                 time_step: 0.1,

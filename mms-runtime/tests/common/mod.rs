@@ -5,7 +5,7 @@ pub mod spin;
 pub mod wave;
 pub mod weights;
 
-use mms_runtime::study::{Frame, Level, Observer, Solve, run_level};
+use mms_runtime::study::{Frame, Observer, Solve, StudyLevel, run_level};
 use mms_runtime::{
     Body, Condition, Domain, Face, FormulationName, IntegratorName, ManufacturedField, Material,
     Matrix, Method, Real, ShapeName, Vector,
@@ -406,7 +406,7 @@ pub fn levels<T: Solve<D>, const D: usize>(
     field: &dyn ManufacturedField<T, D>,
     method: &Method,
     cells: &[usize],
-) -> Vec<Level> {
+) -> Vec<StudyLevel> {
     let level = |&cells: &usize| run_level(field, method, &cells.into(), &mut ()).unwrap();
     cells.iter().map(level).collect()
 }

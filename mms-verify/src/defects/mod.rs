@@ -13,8 +13,8 @@ use std::num::NonZero;
 
 use anyhow::ensure;
 use mms_files::store::Store;
-use mms_lab::outcome::Outcome;
-use mms_lab::pictures::Visible;
+use mms_lab::outcome::SolverOutcome;
+use mms_lab::plausibility::Objections;
 use mms_mechanics::defect as compiler;
 use mms_options::field::{find, interpreted};
 use mms_runtime::defect as solver;
@@ -22,7 +22,7 @@ use mms_spec::suggest::did_you_mean;
 use visual::{VisualInspection, Watched};
 
 use super::matrix::MatrixRow;
-use super::plan::Plan;
+use super::plan::RunPlan;
 use super::verdict::{Judgement, judge};
 use super::work::{Fields, Watcher, outcomes};
 
@@ -97,20 +97,20 @@ pub fn validate(rows: &[MatrixRow]) -> anyhow::Result<()> {
 }
 
 /// A guard: the process makes a mistake until it is dropped.
-struct Made;
+struct ActiveDefect;
 
-impl Made {
+impl ActiveDefect {
     fn new(defect: Option<Defect>) -> Self {
         match defect {
             Some(Defect::Solver(defect)) => solver::select(Some(defect)),
             Some(Defect::Compiler(defect)) => compiler::select(Some(defect)),
             None => {}
         }
-        Made
+        ActiveDefect
     }
 }
 
-impl Drop for Made {
+impl Drop for ActiveDefect {
     fn drop(&mut self) {
         solver::select(None);
         compiler::select(None);
@@ -118,17 +118,17 @@ impl Drop for Made {
 }
 
 /// The results of a row, with a defect or without one.
-pub struct Shown<'a> {
+pub struct RowResult<'a> {
     /// The row.
     pub row: &'a MatrixRow,
     /// The verdict.
     pub judgement: Judgement,
     /// The objections of the plausibility checks to the runs of the row.
-    pub looks: Visible,
+    pub objections: Objections,
 }
 
 /// The setup of runs of rows with defects.
-pub struct Stage<'a> {
+pub struct DefectRuns<'a> {
     /// The identity of this program.
     pub program: String,
     /// The results of this command, with and without a defect; other commands do not use them.
@@ -139,17 +139,17 @@ pub struct Stage<'a> {
     pub watcher: &'a dyn Watcher,
 }
 
-impl Stage<'_> {
+impl DefectRuns<'_> {
     /// The verdicts of the quick levels of some rows, with a mistake in the program or without one.
     ///
     /// # Errors
     /// The store cannot be read or written.
-    pub fn show<'a>(
+    pub fn run_rows<'a>(
         &self,
         defect: Option<Defect>,
         rows: &[&'a MatrixRow],
-    ) -> anyhow::Result<Vec<Shown<'a>>> {
-        let mut plan = Plan::new(rows, true, &self.program)?;
+    ) -> anyhow::Result<Vec<RowResult<'a>>> {
+        let mut plan = RunPlan::new(rows, true, &self.program)?;
         let coarsest: Vec<usize> =
             plan.levels.iter().filter_map(|levels| levels.first().copied()).collect();
         for (at, job) in plan.jobs.iter_mut().enumerate() {
@@ -163,13 +163,14 @@ impl Stage<'_> {
             _ => find,
         });
         let bench = VisualInspection { fields };
-        let _made = Made::new(defect);
+        let _made = ActiveDefect::new(defect);
         let all = outcomes(&plan.jobs, &self.store, self.threads, &bench, self.watcher)?;
         let shown = rows.iter().zip(&plan.levels).map(|(row, levels)| {
             let levels: Vec<&Watched> = levels.iter().map(|&at| &all[at]).collect();
-            let outcomes: Vec<Outcome> = levels.iter().map(|level| level.outcome.clone()).collect();
+            let outcomes: Vec<SolverOutcome> =
+                levels.iter().map(|level| level.outcome.clone()).collect();
             let seen: Vec<_> = levels.iter().map(|level| level.seen.as_ref()).collect();
-            Shown { row, judgement: judge(row, &outcomes), looks: Visible::of(&seen) }
+            RowResult { row, judgement: judge(row, &outcomes), objections: Objections::of(&seen) }
         });
         Ok(shown.collect())
     }

@@ -1,13 +1,13 @@
 //! Runs a row once more and looks at the result as people do: the observers of pseudo verification.
 
-use mms_lab::outcome::{Outcome, outcome};
-use mms_lab::pictures::Seen;
+use mms_lab::outcome::{SolverOutcome, outcome};
+use mms_lab::plausibility::Observed;
 use mms_runtime::scene::{Scene, Solvable};
 use mms_runtime::study::{Frame, Observer, Watch};
 use serde::{Deserialize, Serialize};
 
 use crate::plan::Job;
-use crate::work::{Bench, Fields, Step, watch_of};
+use crate::work::{Fields, JobRunner, OnStep, watch_of};
 
 /// The end of the key of a run whose energy is measured. If fields are interpreted, this takes as long as all other work, so
 /// only the coarsest run of each row is measured.
@@ -21,13 +21,13 @@ const LOOKS: usize = 4;
 #[serde(deny_unknown_fields)]
 pub struct Watched {
     /// The outcome that the row judges.
-    pub outcome: Outcome,
+    pub outcome: SolverOutcome,
     /// The data that people look at; `None` if the run did not end.
-    pub seen: Option<Seen>,
+    pub seen: Option<Observed>,
 }
 
-impl AsRef<Outcome> for Watched {
-    fn as_ref(&self) -> &Outcome {
+impl AsRef<SolverOutcome> for Watched {
+    fn as_ref(&self) -> &SolverOutcome {
         &self.outcome
     }
 }
@@ -38,22 +38,22 @@ pub struct VisualInspection {
     pub fields: Fields,
 }
 
-impl Bench for VisualInspection {
+impl JobRunner for VisualInspection {
     type Result = Watched;
 
-    fn run(&self, job: &Job, step: &mut Step<'_>) -> anyhow::Result<Watched> {
+    fn run(&self, job: &Job, step: &mut OnStep<'_>) -> anyhow::Result<Watched> {
         self.fields.with_scene(job, step, look::<f32>, look::<f64>)
     }
 }
 
-fn look<T: Solvable>(job: &Job, scene: &Scene<T>, step: &mut Step<'_>) -> Watched {
+fn look<T: Solvable>(job: &Job, scene: &Scene<T>, step: &mut OnStep<'_>) -> Watched {
     let mut snapshots = Snapshots { step, frames: Vec::new() };
     let weighed = job.key.run.ends_with(WEIGHED);
     let watch = if weighed { Watch::Everything } else { watch_of(&job.quantity) };
     let run = match scene.run(&job.method, &job.study.cells[0], watch, &mut snapshots) {
         Ok(run) => run,
         Err(refusal) => {
-            let outcome = Outcome::Refused { reason: refusal.to_string() };
+            let outcome = SolverOutcome::Refused { reason: refusal.to_string() };
             return Watched { outcome, seen: None };
         }
     };
@@ -64,7 +64,7 @@ fn look<T: Solvable>(job: &Job, scene: &Scene<T>, step: &mut Step<'_>) -> Watche
         let put_in = balance.body_work.abs().max(energy);
         Some(balance.energy_residual?.abs() / put_in)
     });
-    let seen = outcome.norms().map(|_| Seen::of(&snapshots.frames, energy));
+    let seen = outcome.norms().map(|_| Observed::of(&snapshots.frames, energy));
     Watched { outcome, seen }
 }
 

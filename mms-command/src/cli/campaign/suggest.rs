@@ -5,14 +5,14 @@ use mms_documents::campaign::{AffineMotion, CampaignSuggest, ProposedField, Unse
 use mms_harness::suggest::{Affine, Proposed, Suggestion, Unseen, suggest};
 use mms_options::field::open;
 
-use super::super::Outcome;
+use super::super::CommandOutcome;
 use super::super::format::Printing;
 
 /// Prints what is proposed.
-pub fn propose(can: &Capabilities, printing: Printing) -> anyhow::Result<Outcome> {
+pub fn propose(can: &Capabilities, printing: Printing) -> anyhow::Result<CommandOutcome> {
     let found = suggest(can, &open)?;
     printing.print_without_table(&text(&found), &document(&found))?;
-    Ok(Outcome::AsExpected)
+    Ok(CommandOutcome::AsExpected)
 }
 
 /// Lines of TOML, of which those that are no keys are comments.

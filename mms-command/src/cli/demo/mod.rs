@@ -36,14 +36,14 @@ use mms_judge::diagnose::{Factors, Reading, falls, find, read};
 use mms_judge::results::{self, Comparison, measure};
 use mms_judge::table::ExpectedOrders;
 use mms_options::field::open;
-use mms_report::table::Table;
+use mms_report::table::TextTable;
 use mms_results::Files;
 use mms_results::names::Names;
 use mms_spec::foreign;
 use mms_spec::quantity::Quantity;
 
 use self::problem::Problem;
-use super::{Outcome, print, this_command, validate_output};
+use super::{CommandOutcome, print, this_command, validate_output};
 
 /// Demonstrate a diagnosis: a small solver with one broken line is judged, diagnosed, repaired and judged again.
 ///
@@ -135,7 +135,7 @@ impl Files for Tables {
 }
 
 impl Demo {
-    pub fn run(self) -> anyhow::Result<Outcome> {
+    pub fn run(self) -> anyhow::Result<CommandOutcome> {
         self.keep.as_deref().map_or(Ok(()), validate_new)?;
         let mut exact = Exact::new(Input::new(open(FIELD)?, &Options::default())?, &[])?;
         let (right, broken) = {
@@ -163,7 +163,7 @@ impl Demo {
         let is_shown = judged[0].verdict() == Verdict::Pass
             && judged[1].verdict() == Verdict::Fail
             && diagnosis.finding == DiagnosisFinding::Named;
-        Ok(if is_shown { Outcome::AsExpected } else { Outcome::Refuted })
+        Ok(if is_shown { CommandOutcome::AsExpected } else { CommandOutcome::Refuted })
     }
 }
 
@@ -245,7 +245,7 @@ fn table(judged: &[Judgements; 2]) -> anyhow::Result<String> {
         norm.map(|norm| it.levels(norm)).context("no l2 norm of the displacement")
     });
     let header = ["cells", "right: l2 error of u", "order", "broken: l2 error of u", "order"];
-    let mut table = Table::new(FIELD.to_owned(), header).right_from(0);
+    let mut table = TextTable::new(FIELD.to_owned(), header).right_from(0);
     for ((cells, right), broken) in CELLS.into_iter().zip(right?).zip(broken?) {
         let order = |it: Option<f64>| it.map_or("-".into(), |it| format!("{it:.2}"));
         let error = |it: f64| format!("{it:.2e}");

@@ -29,7 +29,7 @@ use mms_spec::quantity::Quantity;
 use super::super::naming::Naming;
 use super::super::next::typed;
 use super::super::warned::warned;
-use super::super::{Outcome, say, this_command};
+use super::super::{CommandOutcome, say, this_command};
 use super::{Judge, outcome};
 
 /// How results are read.
@@ -125,7 +125,7 @@ impl Options {
 
 impl Judge {
     /// Judges results, or compares two.
-    pub(super) fn results(&self, field: &str) -> anyhow::Result<Outcome> {
+    pub(super) fn results(&self, field: &str) -> anyhow::Result<CommandOutcome> {
         let options = &self.results;
         if self.files.is_empty() {
             bail!(
@@ -163,7 +163,7 @@ impl Judge {
     }
 
     /// Prints how each file is read.
-    fn explain(&self, exact: &mut Exact) -> anyhow::Result<Outcome> {
+    fn explain(&self, exact: &mut Exact) -> anyhow::Result<CommandOutcome> {
         let (names, wanted) = self.asked(exact)?;
         let reading = self.reading(&names, &wanted);
         let mut all = Vec::new();
@@ -174,7 +174,7 @@ impl Judge {
         let texts: Vec<String> = all.iter().map(Explained::text).collect();
         let files = all.iter().map(Explained::document).collect();
         self.printing.print_without_table(&texts.join("\n"), &JudgeExplained { files })?;
-        Ok(Outcome::AsExpected)
+        Ok(CommandOutcome::AsExpected)
     }
 
     /// The names of arrays, and the requested quantities.
@@ -228,7 +228,7 @@ impl Judge {
         path: &Path,
         title: &str,
         measurement: &Measurement,
-    ) -> anyhow::Result<Outcome> {
+    ) -> anyhow::Result<CommandOutcome> {
         let text = read::text(path, FileKind::Result)?;
         let compared = Baseline::read(&text).and_then(|it| it.compare(&measurement.measured));
         let compared = compared.with_context(|| format!("`--baseline {}`", foreign::path(path)))?;
@@ -241,13 +241,13 @@ impl Judge {
     }
 
     /// Compares two results.
-    pub(super) fn same(&self) -> anyhow::Result<Outcome> {
+    pub(super) fn same(&self) -> anyhow::Result<CommandOutcome> {
         let [a, b] = self.results.same.as_slice() else { bail!("`--same`: expected two results") };
         let (room, advice) = room(self.results.max_memory, &Disk);
         let names = self.results.naming.names(None)?;
         let find = |given| Results::find(given, &everything(&names).within(room, advice), &Disk);
         let found = same(&find(a)?, &find(b)?, &names)?;
         self.printing.print(&differences(a, b, &found))?;
-        Ok(if found.is_finite() { Outcome::AsExpected } else { Outcome::Refuted })
+        Ok(if found.is_finite() { CommandOutcome::AsExpected } else { CommandOutcome::Refuted })
     }
 }

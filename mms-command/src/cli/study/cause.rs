@@ -4,7 +4,7 @@ use mms_convergence::{ExpectedOrder, Verdict};
 use mms_exact::Input;
 use mms_judge::next::{Words, command};
 use mms_options::field::Variant;
-use mms_report::Refused;
+use mms_report::UnstartedLevel;
 use mms_runtime::Transfer;
 use mms_runtime::failure::Cause as Stop;
 use mms_runtime::integrator::{Integrator, IntegratorVisitor};
@@ -35,7 +35,7 @@ pub struct Ended<'a> {
     /// The refined lengths.
     pub refinement: Refinement,
     /// The levels, from coarse to fine.
-    pub levels: &'a [Result<Run, Refused>],
+    pub levels: &'a [Result<Run, UnstartedLevel>],
     /// The expected order.
     pub expected: ExpectedOrder,
     /// The verdict.

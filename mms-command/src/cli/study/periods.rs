@@ -1,6 +1,6 @@
 //! The periods of a study of phase.
 
-use mms_report::Refused;
+use mms_report::UnstartedLevel;
 use mms_runtime::Run;
 
 /// The periods that runs go through.
@@ -15,7 +15,7 @@ pub struct Periods {
 
 impl Periods {
     /// Advice for a run that went well for some periods and then failed.
-    pub fn where_they_stopped(&self, levels: &[Result<Run, Refused>]) -> Option<String> {
+    pub fn where_they_stopped(&self, levels: &[Result<Run, UnstartedLevel>]) -> Option<String> {
         let failures = levels.iter().flatten().filter_map(|run| run.level.errors.as_ref().err());
         let numbers =
             failures.map(|it| ((it.time - self.start) / self.length).floor() as usize + 1);

@@ -7,14 +7,14 @@ use anyhow::bail;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mms_files::program::identity;
 use mms_files::store::Store;
-use mms_lab::pictures::Visible;
+use mms_lab::plausibility::Objections;
 use mms_report::defects::{Report, Showing};
-use mms_verify::defects::{Defect, Shown, Stage, validate};
+use mms_verify::defects::{Defect, DefectRuns, RowResult, validate};
 use mms_verify::matrix::MatrixRow;
 use mms_verify::plan::Job;
 use mms_verify::work::Watcher;
 
-use super::super::{Outcome, say, this_command};
+use super::super::{CommandOutcome, say, this_command};
 use super::{Verify, input};
 
 /// The folder in a store where results of defects are kept: none of them is trusted without.
@@ -28,7 +28,7 @@ impl Verify {
         all: &[MatrixRow],
         rows: &[&MatrixRow],
         threads: NonZero<usize>,
-    ) -> anyhow::Result<Outcome> {
+    ) -> anyhow::Result<CommandOutcome> {
         validate(all)?;
         let rows: Vec<&MatrixRow> = rows.iter().copied().filter(|row| row.quick > 0).collect();
         if rows.is_empty() {
@@ -38,7 +38,7 @@ impl Verify {
         let (store, set_aside) = Store::open(&self.store.join(FOLDER))?;
         let progress = Progress::new(defects.len());
         set_aside.iter().for_each(|what| progress.set_aside(what));
-        let stage = Stage { program: identity()?, store, threads, watcher: &progress };
+        let stage = DefectRuns { program: identity()?, store, threads, watcher: &progress };
 
         // Without a defect every row has to be as expected, or it would catch them all.
         let chosen = |defect: &Defect| match self.all_rows {
@@ -49,7 +49,7 @@ impl Verify {
             defects.iter().any(|defect| chosen(defect).iter().any(|it| it.name == row.name))
         };
         let needed: Vec<&MatrixRow> = rows.iter().filter(needed).copied().collect();
-        let right = stage.show(None, &needed)?;
+        let right = stage.run_rows(None, &needed)?;
         if let Some(odd) = right.iter().find(|shown| !shown.judgement.as_expected()) {
             let reason = odd.judgement.reason.as_deref().unwrap_or_default();
             bail!("`{}` is not as theory expects without any defect: {reason}", odd.row.name);
@@ -57,12 +57,14 @@ impl Verify {
 
         let mut showings = Vec::new();
         for &defect in &defects {
-            let shown = stage.show(Some(defect), &chosen(&defect))?;
-            let looks = shown.iter().fold(Visible::default(), |looks, it| {
+            let shown = stage.run_rows(Some(defect), &chosen(&defect))?;
+            let looks = shown.iter().fold(Objections::default(), |looks, it| {
                 let without = right.iter().find(|other| other.row.name == it.row.name);
-                looks.or(it.looks.beside(without.map_or(Visible::default(), |it| it.looks)))
+                looks.or(it
+                    .objections
+                    .not_in(without.map_or(Objections::default(), |it| it.objections)))
             });
-            let showing = Showing { defect, rows: shown, looks };
+            let showing = Showing { defect, rows: shown, objections: looks };
             progress.shown(&showing);
             showings.push(showing);
         }
@@ -71,7 +73,7 @@ impl Verify {
         let report =
             Report { rows, showings, whole: self.all_rows && names.is_empty(), provenance };
         self.tell("defects", &report, || report.page())?;
-        Ok(if report.as_expected() { Outcome::AsExpected } else { Outcome::Refuted })
+        Ok(if report.as_expected() { CommandOutcome::AsExpected } else { CommandOutcome::Refuted })
     }
 }
 
@@ -103,7 +105,7 @@ impl Progress {
 
     fn shown(&self, showing: &Showing<'_>) {
         self.bar.inc(1);
-        let by = |shown: &Shown<'_>| shown.row.name.clone();
+        let by = |shown: &RowResult<'_>| shown.row.name.clone();
         let by = showing.caught().map(by).next().unwrap_or_else(|| "nothing".into());
         let name = showing.defect.name();
         if self.bar.is_hidden() {
@@ -119,7 +121,7 @@ impl Watcher for Progress {
 
     fn step(&self, _: &Job, _: usize, _: usize) {}
 
-    fn done(&self, job: &Job, _: &mms_lab::outcome::Outcome) {
+    fn done(&self, job: &Job, _: &mms_lab::outcome::SolverOutcome) {
         self.bar.set_message(job.command.clone());
     }
 

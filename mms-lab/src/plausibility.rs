@@ -49,12 +49,12 @@ impl Check {
     }
 
     /// Whether the check objects to the levels of a row, coarse to fine; `None`, if it cannot decide.
-    fn objects(self, levels: &[Option<&Seen>]) -> Option<bool> {
-        let seen: Vec<&Seen> = levels.iter().copied().flatten().collect();
+    fn objects(self, levels: &[Option<&Observed>]) -> Option<bool> {
+        let seen: Vec<&Observed> = levels.iter().copied().flatten().collect();
         let all_ended = seen.len() == levels.len();
         let above = |value: f64, most: f64| value.is_nan() || value > most;
         if self == Check::Bounded {
-            let fled = |seen: &&Seen| above(seen.largest, seen.extent);
+            let fled = |seen: &&Observed| above(seen.largest, seen.extent);
             return Some(!all_ended || seen.iter().any(fled));
         }
         let finest = seen.last().filter(|_| all_ended)?;
@@ -76,18 +76,18 @@ impl Check {
 
 /// The objections of the checks to a row, in the order of [`Check::ALL`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Visible(pub [Option<bool>; Check::ALL.len()]);
+pub struct Objections(pub [Option<bool>; Check::ALL.len()]);
 
-impl Visible {
+impl Objections {
     /// The objections to the levels of a row, coarse to fine; a level that did not end shows nothing.
-    pub fn of(levels: &[Option<&Seen>]) -> Self {
-        Visible(Check::ALL.map(|check| check.objects(levels)))
+    pub fn of(levels: &[Option<&Observed>]) -> Self {
+        Objections(Check::ALL.map(|check| check.objects(levels)))
     }
 
     /// The objections to a defect, of the checks that had no objection `without` it.
-    pub fn beside(self, without: Self) -> Self {
+    pub fn not_in(self, without: Self) -> Self {
         let fair = |at: usize| if without.0[at] == Some(false) { self.0[at] } else { None };
-        Visible(std::array::from_fn(fair))
+        Objections(std::array::from_fn(fair))
     }
 
     /// The objections of either row: a check objects if it objects to one of them.
@@ -96,14 +96,14 @@ impl Visible {
             (Some(one), Some(another)) => Some(one || another),
             (one, another) => one.or(another),
         };
-        Visible(std::array::from_fn(either))
+        Objections(std::array::from_fn(either))
     }
 }
 
 /// The data that people look at.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Seen {
+pub struct Observed {
     /// The largest component of a displacement.
     largest: f64,
     /// The longest edge of the box around the particles at rest.
@@ -120,7 +120,7 @@ pub struct Seen {
     energy: Option<f64>,
 }
 
-impl Seen {
+impl Observed {
     /// The data of some states of a run, and of its energy residual.
     pub fn of(frames: &[Frame], energy: Option<f64>) -> Self {
         let all = |of: fn(&Frame) -> Vec<f64>| frames.iter().flat_map(of);
@@ -136,7 +136,7 @@ impl Seen {
         let exact = mean_square(field);
         let size = all(field).fold(0.0, |most, u| f64::max(most, u.abs()));
         let error = mean_square(|frame| frame.displacement_error.clone());
-        Seen {
+        Observed {
             largest: all(displacement).fold(0.0, |most, x| f64::max(most, x.abs())),
             extent,
             motion: mean_square(displacement),
@@ -242,7 +242,7 @@ mod tests {
 
     #[test]
     fn numbers_of_a_run_are_those_on_paper() {
-        let seen = Seen::of(&[frame([-0.2, -0.1, 0.1, 0.2], 0.1)], None);
+        let seen = Observed::of(&[frame([-0.2, -0.1, 0.1, 0.2], 0.1)], None);
         assert!((seen.largest - 0.2).abs() < 1e-12 && (seen.extent - 0.75).abs() < 1e-12);
         assert!((seen.motion - f64::sqrt((0.04 + 0.04 + 0.04) / 4.0)).abs() < 1e-12);
         assert!((seen.misfit - f64::sqrt(0.02 / 0.1)).abs() < 1e-12);
@@ -250,7 +250,7 @@ mod tests {
 
     #[test]
     fn checks_object_to_what_they_look_at() {
-        let fine = Seen {
+        let fine = Observed {
             largest: 0.1,
             extent: 1.0,
             motion: 0.05,
@@ -258,28 +258,28 @@ mod tests {
             asymmetry: Some(1e-9),
             energy: Some(0.01),
         };
-        let looks = |last: Option<Seen>| Visible::of(&[Some(&fine), last.as_ref()]).0;
+        let looks = |last: Option<Observed>| Objections::of(&[Some(&fine), last.as_ref()]).0;
         let none = Some(false);
         assert_eq!(looks(Some(fine.clone())), [none; 5]);
-        let objected = |at: usize, seen: Seen| {
+        let objected = |at: usize, seen: Observed| {
             let found = looks(Some(seen));
             let wanted = std::array::from_fn(|k| if k == at { Some(true) } else { none });
             assert_eq!(found, wanted, "{at}");
         };
-        objected(0, Seen { misfit: 0.2, ..fine.clone() });
-        objected(1, Seen { largest: f64::NAN, ..fine.clone() });
-        objected(2, Seen { asymmetry: Some(1e-3), ..fine.clone() });
-        objected(4, Seen { motion: 0.06, ..fine.clone() });
-        let weighed = Seen { energy: Some(0.1), ..fine.clone() };
-        assert_eq!(Visible::of(&[Some(&weighed), Some(&fine)]).0[3], Some(true));
+        objected(0, Observed { misfit: 0.2, ..fine.clone() });
+        objected(1, Observed { largest: f64::NAN, ..fine.clone() });
+        objected(2, Observed { asymmetry: Some(1e-3), ..fine.clone() });
+        objected(4, Observed { motion: 0.06, ..fine.clone() });
+        let weighed = Observed { energy: Some(0.1), ..fine.clone() };
+        assert_eq!(Objections::of(&[Some(&weighed), Some(&fine)]).0[3], Some(true));
         assert_eq!(looks(None), [None, Some(true), None, None, None]);
-        let stopped = Visible::of(&[None, None]);
+        let stopped = Objections::of(&[None, None]);
         assert_eq!(stopped.0, [None, Some(true), None, None, None]);
         // An objection without the defect is no evidence.
-        let unfair = Visible([Some(true); 5]).beside(stopped);
-        assert_eq!(unfair, Visible([None; 5]));
+        let unfair = Objections([Some(true); 5]).not_in(stopped);
+        assert_eq!(unfair, Objections([None; 5]));
         assert_eq!(unfair.or(stopped), stopped);
-        assert_eq!(Visible([Some(false); 5]).or(stopped).0[1], Some(true));
+        assert_eq!(Objections([Some(false); 5]).or(stopped).0[1], Some(true));
         assert_eq!(Check::ALL.map(Check::name)[1], "bounded");
     }
 }
