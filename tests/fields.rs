@@ -12,7 +12,7 @@ use mms_codegen::certify::closed_form::{ClosedFormVerdict, compare};
 use mms_codegen::{Compiled, Options};
 use mms_interpreted::Interpretable;
 use mms_mechanics::Output;
-use mms_mechanics::invariant::Invariants;
+use mms_mechanics::invariant::InvariantKind;
 use mms_mechanics::sample::Sample;
 use mms_program::interpret::{Interpreter, Point};
 use mms_runtime::convergence::{ExpectedOrder, TOLERANCE, Verdict};
@@ -241,7 +241,7 @@ fn modulus<K: Kernel>() -> f64 {
 fn carriers<K: Kernel>(deformation: &[f64], jacobian: f64) -> (Vec<f64>, f64) {
     let dimension = rows::<K>();
     match compiled(K::NAME).model.kind {
-        Invariants::SmallStrain => {
+        InvariantKind::SmallStrain => {
             let unit = |k: usize| f64::from(u8::from(k / dimension == k % dimension));
             ((0..dimension * dimension).map(unit).collect(), 1.0)
         }
@@ -482,7 +482,7 @@ fn are_same<T: PartialOrd>(found: &[T], expected: &[T], is_late: bool) -> bool {
 /// Every `[[check]]` of the file, in arbitrary precision.
 fn closed_forms<K: Kernel>() {
     for comparison in compare(compiled(K::NAME)) {
-        assert!(matches!(comparison.finding, ClosedFormVerdict::Agrees), "{comparison:?}");
+        assert!(matches!(comparison.verdict, ClosedFormVerdict::Agrees), "{comparison:?}");
     }
 }
 

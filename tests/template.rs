@@ -88,7 +88,7 @@ fn every_text_compiles_and_its_closed_forms_hold() {
         assert_eq!(comparisons.len(), expected, "{text}");
         for comparison in comparisons {
             assert!(
-                matches!(comparison.finding, ClosedFormVerdict::Agrees),
+                matches!(comparison.verdict, ClosedFormVerdict::Agrees),
                 "{comparison:?}\n{text}"
             );
         }
@@ -107,7 +107,7 @@ fn every_example_works_when_it_is_uncommented() {
             assert!(study.precision.is_some() && study.form.is_some(), "{whole}");
         }
         let agrees =
-            |comparison: &Comparison| matches!(comparison.finding, ClosedFormVerdict::Agrees);
+            |comparison: &Comparison| matches!(comparison.verdict, ClosedFormVerdict::Agrees);
         assert!(compare(&compiled).iter().all(agrees));
     }
 }

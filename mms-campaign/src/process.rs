@@ -59,14 +59,14 @@ impl Folder {
     ///
     /// # Errors
     /// A supervisor whose state cannot be read.
-    pub fn run(&self, order: &Launch<'_>, stop: &dyn Fn() -> bool) -> io::Result<Report> {
-        let [program, words @ ..] = order.supervisor else {
+    pub fn run(&self, launch: &Launch<'_>, stop: &dyn Fn() -> bool) -> io::Result<Report> {
+        let [program, words @ ..] = launch.supervisor else {
             return Ok(Report::badly("no supervisor"));
         };
         let mut command = Command::new(program);
-        command.args(words).arg(WORD).arg(&self.path).arg(order.directory);
-        command.arg(order.limit.as_secs_f64().to_string()).args(order.words);
-        command.envs(order.variables.iter().map(|(name, value)| (name, value)));
+        command.args(words).arg(WORD).arg(&self.path).arg(launch.directory);
+        command.arg(launch.limit.as_secs_f64().to_string()).args(launch.words);
+        command.envs(launch.variables.iter().map(|(name, value)| (name, value)));
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(self.running.try_clone()?);
         in_own_group(&mut command);
         match command.spawn() {

@@ -14,14 +14,14 @@ use mms_campaign::supervisor::{Ended, RUNNING, Report, STDERR, STDOUT};
 
 /// Runs a command in its folder.
 fn run_words(folder: &Folder, words: &[String], limit: f64, stop: &dyn Fn() -> bool) -> Report {
-    let order = Launch {
+    let launch = Launch {
         supervisor: &[env!("CARGO_BIN_EXE_supervise").into()],
         words,
         directory: &folder.path,
         variables: &[("OMP_NUM_THREADS", "3".to_owned())],
         limit: Duration::from_secs_f64(limit),
     };
-    folder.run(&order, stop).expect("it is run")
+    folder.run(&launch, stop).expect("it is run")
 }
 
 /// Runs a shell script.

@@ -47,9 +47,9 @@ impl Evaluator {
         parameters: &[f64],
         work: impl FnOnce(&mut Ready) -> R,
     ) -> R {
-        let asked = self.0.iter().find(|(known, _)| *known == quantity);
-        let (_, asked) = asked.expect("all quantities are listed");
-        let idle = || asked.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        let cache = self.0.iter().find(|(known, _)| *known == quantity);
+        let (_, cache) = cache.expect("all quantities are listed");
+        let idle = || cache.idle.lock().unwrap_or_else(PoisonError::into_inner);
         let known = idle().pop();
         let mut ready = known.unwrap_or_else(|| {
             let plan = || {
@@ -59,7 +59,7 @@ impl Evaluator {
                     Output::is_quantity,
                 ))
             };
-            let plan = asked.plan.get_or_init(plan).clone();
+            let plan = cache.plan.get_or_init(plan).clone();
             Ready {
                 parameters: parameters.to_vec(),
                 prepared: Prepared::new(plan, BlockMode::portable(), parameters),

@@ -22,7 +22,7 @@ impl Compared {
 
     /// Whether every closed form agrees.
     pub fn all_agree(&self) -> bool {
-        self.0.iter().all(|(it, _)| matches!(it.finding, ClosedFormVerdict::Agrees))
+        self.0.iter().all(|(it, _)| matches!(it.verdict, ClosedFormVerdict::Agrees))
     }
 
     /// The closed forms as parts of a document.
@@ -37,7 +37,7 @@ impl Compared {
             let quantity = comparison.quantity.name();
             let source = comparison.source.as_ref().map(Foreign::shown);
             let source = source.as_deref().unwrap_or("no source given");
-            match &comparison.finding {
+            match &comparison.verdict {
                 ClosedFormVerdict::Agrees => lines.push(format!(
                     "  check  {quantity} agrees to 1e-20 at {} points ({source})",
                     comparison.points
@@ -66,7 +66,7 @@ impl Compared {
 }
 
 fn document(comparison: &Comparison, named: Option<&Ranked>) -> ClosedForm {
-    let (status, found, undefined) = match &comparison.finding {
+    let (status, found, undefined) = match &comparison.verdict {
         ClosedFormVerdict::Agrees => ("passed", None, 0),
         ClosedFormVerdict::Differs(found) => ("failed", Some(found), 0),
         ClosedFormVerdict::Undefined { points, first } => ("undefined", Some(first), *points),

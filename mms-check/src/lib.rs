@@ -52,7 +52,7 @@ pub struct Report {
 }
 
 /// Checks a compiled field. `path` names its file in the report.
-pub fn check(path: &Foreign, compiled: &Arc<Compiled>, asked: CheckOptions) -> Report {
+pub fn check(path: &Foreign, compiled: &Arc<Compiled>, options: CheckOptions) -> Report {
     let compared = Compared::of(compiled, compare(compiled));
     let title = format!("{}: {}", path.shown(), compiled.field.title.shown());
     if compiled.field.domain.body.is_nothing() {
@@ -71,7 +71,7 @@ pub fn check(path: &Foreign, compiled: &Arc<Compiled>, asked: CheckOptions) -> R
         Ellipticity::Strong(_) | Ellipticity::Unproved => None,
     };
     let growing = warnings(compiled, &stability, lost);
-    let solved = asked.solve.then(|| solve(compiled));
+    let solved = options.solve.then(|| solve(compiled));
     let is_seen = undefined::points(compiled) > 0 && compared.all_agree();
 
     let notes = doubly_named(compiled);
@@ -80,7 +80,7 @@ pub fn check(path: &Foreign, compiled: &Arc<Compiled>, asked: CheckOptions) -> R
     lines.extend(name_lines(&notes));
     lines.extend(rest_line(&rest));
     let of = (compiled.field.space, compiled.model.domain.is_static);
-    lines.extend(stability::text(&stability, &certificate, of, asked.is_verbose));
+    lines.extend(stability::text(&stability, &certificate, of, options.is_verbose));
     lines.extend(solved.map(|solved| format!("  solve  {}", solved.words())));
     lines.extend(gaps.iter().flat_map(|gap| gap_lines(compiled, gap)));
     lines.extend(compared.lines(compiled));

@@ -27,7 +27,7 @@ fn closed_form_of(quantity: Quantity) -> Option<ClosedForm> {
 
 /// The mistake that each closed form of a field contains, if a hypothesis gives it.
 pub fn named(compiled: &Arc<Compiled>, comparisons: &[Comparison]) -> Vec<Option<Ranked>> {
-    let named = |(check, it): (usize, &Comparison)| match it.finding {
+    let named = |(check, it): (usize, &Comparison)| match it.verdict {
         ClosedFormVerdict::Differs(_) => {
             closed_form_of(it.quantity).and_then(|it| of(compiled, check, it))
         }

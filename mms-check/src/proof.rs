@@ -48,7 +48,7 @@ pub fn text(compiled: &Compiled, certificate: &Certificate) -> Vec<String> {
         }
         _ => "  proof  u and its terms are UNPROVED to stay within one analytic branch".into(),
     });
-    if single.finding != ComputedVerdict::NotApplicable {
+    if single.verdict != ComputedVerdict::NotApplicable {
         lines.push(finite("  proof  in f32 every quantity is finite, too", single));
     }
     let is_static = compiled.model.domain.is_static;
@@ -103,7 +103,7 @@ fn solid(certificate: &Certificate) -> Option<String> {
 
 /// The line about finite values in a precision.
 fn finite(proved: &str, computed: &ComputedProof) -> String {
-    match &computed.finding {
+    match &computed.verdict {
         ComputedVerdict::Proved | ComputedVerdict::NotApplicable => proved.into(),
         ComputedVerdict::Fails(quantity, ..) => {
             format!("{proved}: {} is NOT, as computed", quantity.name())
@@ -210,8 +210,8 @@ pub fn document(certificate: &Certificate) -> documents::Certificate {
         jacobian,
         solid: certificate.solid.iter().all(|(_, sign)| matches!(sign, Sign::Positive(_))),
         analytic: certificate.branch_violations.is_empty(),
-        finite: certificate.computed[0].finding == ComputedVerdict::Proved,
-        finite_f32: certificate.computed[1].finding == ComputedVerdict::Proved,
+        finite: certificate.computed[0].verdict == ComputedVerdict::Proved,
+        finite_f32: certificate.computed[1].verdict == ComputedVerdict::Proved,
         angle_digits,
         angle_digits_f32,
         principal_stretch: rates.map(|it| it.principal_stretch),

@@ -16,7 +16,7 @@ use crate::selection::{self, Selection};
 use crate::variation::Variation;
 use mms_mechanics::boundary::Datum;
 use mms_mechanics::face;
-use mms_mechanics::invariant::Invariants;
+use mms_mechanics::invariant::InvariantKind;
 use mms_mechanics::model::{parameter_values, set_expressions};
 use mms_mechanics::resolve::Scope;
 use mms_mechanics::{Derivation, Model, Response, TooLarge, requested, tangent};
@@ -268,8 +268,8 @@ impl Compiled {
             _ if quantity == Quantity::Displacement && self.field.is_static() => {
                 "Displacement u(X)."
             }
-            Invariants::SmallStrain => quantity.doc_at_small_strain(),
-            Invariants::Isotropic | Invariants::Fibrous(_) => quantity.doc(),
+            InvariantKind::SmallStrain => quantity.doc_at_small_strain(),
+            InvariantKind::Isotropic | InvariantKind::Fibrous(_) => quantity.doc(),
         }
     }
 

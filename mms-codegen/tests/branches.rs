@@ -234,7 +234,7 @@ fn what_is_proved_finite_is_computed() {
         let is_refused = !certificate.objections(&compiled).is_empty();
         assert_eq!(
             is_refused,
-            double.finding != ComputedVerdict::Proved,
+            double.verdict != ComputedVerdict::Proved,
             "{name}: {certificate:?}"
         );
     }
@@ -248,8 +248,8 @@ fn what_overflows_on_the_way_is_told() {
     let case = Case { material: stiff, ..Case::of(&["0.01*X^2"], BOX) };
     let (compiled, certificate) = certified(&case.text());
     let [double, single] = &certificate.computed;
-    assert_eq!(double.finding, ComputedVerdict::Proved);
-    assert!(matches!(single.finding, ComputedVerdict::Fails(..)), "{single:?}");
+    assert_eq!(double.verdict, ComputedVerdict::Proved);
+    assert!(matches!(single.verdict, ComputedVerdict::Fails(..)), "{single:?}");
     assert!(certificate.objections(&compiled).is_empty());
 }
 

@@ -113,11 +113,11 @@ fn honest_fields_are_computed_in_both_precisions() {
     for (file, _, certificate) in &*HONEST {
         let shown = file.display();
         let [double, single] = &certificate.computed;
-        assert_eq!(double.finding, computed::ComputedVerdict::Proved, "{shown}");
+        assert_eq!(double.verdict, computed::ComputedVerdict::Proved, "{shown}");
         assert!(double.cells <= MOST_CELLS, "{shown}: {}", double.cells);
         // A J of 1e-6 is about as large as the rounding of f32.
         if !file.ends_with("sliver_2d.toml") {
-            assert_eq!(single.finding, computed::ComputedVerdict::Proved, "{shown}");
+            assert_eq!(single.verdict, computed::ComputedVerdict::Proved, "{shown}");
             assert!(single.cells <= MOST_CELLS, "{shown}: {}", single.cells);
         }
     }

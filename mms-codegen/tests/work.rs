@@ -98,8 +98,8 @@ fn functions_of_tiny_numbers_end() {
     for ((_, _, certificate), is_proved) in checked.iter().zip([true, true, false]) {
         assert_eq!(certificate.spent, ["what is computed"]);
         let [double, single] = &certificate.computed;
-        assert_eq!(double.finding == computed::ComputedVerdict::Proved, is_proved, "{double:?}");
-        assert!(matches!(single.finding, computed::ComputedVerdict::Unproved(..)), "{single:?}");
+        assert_eq!(double.verdict == computed::ComputedVerdict::Proved, is_proved, "{double:?}");
+        assert!(matches!(single.verdict, computed::ComputedVerdict::Unproved(..)), "{single:?}");
         assert!(double.cells + single.cells < 2000, "{} {}", double.cells, single.cells);
     }
 }
@@ -148,7 +148,7 @@ fn many_ranges_and_closed_forms_end() {
         lines(count, |k| format!("[[check]]\nquantity = \"u\"\nequals = [\"a*sin({k}*X)\"]"));
     let (_, comparisons, _) = check(&field("a*sin(X)", "", "", &checks)).expect("a field");
     let looked_at =
-        |it: &Comparison| it.points > 0 || matches!(it.finding, ClosedFormVerdict::Unmeasured);
+        |it: &Comparison| it.points > 0 || matches!(it.verdict, ClosedFormVerdict::Unmeasured);
     assert!(comparisons.iter().all(looked_at));
 }
 
@@ -166,9 +166,9 @@ fn a_closed_form_that_takes_too_long_is_not_compared() {
     let checked = check(&field("a*X", "", "", &form.repeat(2)));
     let (_, comparisons, _) = checked.unwrap_or_else(|failure| panic!("{failure}"));
     assert!(
-        matches!(comparisons[0].finding, ClosedFormVerdict::Unmeasured),
+        matches!(comparisons[0].verdict, ClosedFormVerdict::Unmeasured),
         "{:?}",
-        comparisons[0].finding
+        comparisons[0].verdict
     );
     assert_eq!(comparisons[0].points, 0);
 }
@@ -199,7 +199,7 @@ fn a_proof_that_is_stopped_proves_nothing_and_refutes_nothing() {
         assert!(!certificate.branch_violations.is_empty(), "{name}");
         assert!(certificate.branch_violations.iter().all(|exit| !exit.is_certain), "{name}");
         assert_eq!(
-            certificate.computed[0].finding,
+            certificate.computed[0].verdict,
             computed::ComputedVerdict::NotApplicable,
             "{name}"
         );

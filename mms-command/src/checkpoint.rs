@@ -155,7 +155,7 @@ pub struct CheckpointWriter {
 }
 
 impl CheckpointWriter {
-    /// A keeper that writes after every `every` steps, to a file in an existing folder.
+    /// A writer that writes after every `every` steps, to a file in an existing folder.
     ///
     /// # Errors
     /// A folder that cannot be written to.

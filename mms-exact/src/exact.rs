@@ -9,7 +9,7 @@ use dashu_ratio::RBig;
 use mms_analysis::inverse_motion::{Inverse, Unplaced};
 use mms_interpreted::AtPoints;
 use mms_mechanics::extent::Extent;
-use mms_mechanics::invariant::Invariants;
+use mms_mechanics::invariant::InvariantKind;
 use mms_mechanics::sample::domain;
 use mms_mechanics::{Output, Response};
 use mms_runtime::scene::Scene;
@@ -176,7 +176,7 @@ impl Exact {
 
     /// Whether the material is of small strain, with one stress and one configuration.
     pub fn is_small_strain(&self) -> bool {
-        self.input.compiled.model.kind == Invariants::SmallStrain
+        self.input.compiled.model.kind == InvariantKind::SmallStrain
     }
 
     /// The number of components of a quantity at a point.

@@ -4,7 +4,7 @@
 //! dimensions, sigma_33 = (-3 p - tr sigma)/(3 - D), where tr is the trace of the D x D components. P_33 = S_33 = tau_33 = J
 //! sigma_33, without J at small strain.
 
-use mms_mechanics::invariant::Invariants;
+use mms_mechanics::invariant::InvariantKind;
 use mms_runtime::math::Scalar;
 use mms_spec::quantity::{Quantity, Shape};
 
@@ -29,8 +29,8 @@ pub enum Beyond {
 
 impl Beyond {
     /// The diagonal component of a quantity; `None` if it is no tensor. At small strain all stresses are the same.
-    pub fn of(quantity: Quantity, kind: &Invariants) -> Option<Beyond> {
-        let is_small = *kind == Invariants::SmallStrain;
+    pub fn of(quantity: Quantity, kind: &InvariantKind) -> Option<Beyond> {
+        let is_small = *kind == InvariantKind::SmallStrain;
         match quantity {
             _ if quantity.shape() != Shape::Tensor => None,
             Quantity::DisplacementGradient | Quantity::GreenLagrange | Quantity::SmallStrain => {

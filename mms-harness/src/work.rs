@@ -293,14 +293,14 @@ impl<'a> Work<'a> {
             solver.run.iter().map(|word| planned.fill(word, job, paths)).collect();
         let line = words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
         write_own(&folder.path.join("command.txt"), &(line + "\n"))?;
-        let order = Launch {
+        let launch = Launch {
             supervisor: &program::words()?,
             words: &words,
             directory: &self.directory(planned, job, paths),
             variables: &[("OMP_NUM_THREADS", solver.threads.to_string())],
             limit: solver.time_limit,
         };
-        Ok(folder.run(&order, &|| self.watcher.is_interrupted())?)
+        Ok(folder.run(&launch, &|| self.watcher.is_interrupted())?)
     }
 
     /// The folder that contains one folder for each attempt of a run. Its name includes a part of the digest of the run's key,

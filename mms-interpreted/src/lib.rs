@@ -13,7 +13,7 @@ use std::sync::{Arc, OnceLock};
 use dashu_ratio::RBig;
 use mms_codegen::Compiled;
 use mms_mechanics::Response;
-use mms_mechanics::invariant::Invariants;
+use mms_mechanics::invariant::InvariantKind;
 use mms_mechanics::{Bound, Output};
 use mms_program::Op;
 use mms_program::block::{
@@ -164,13 +164,15 @@ impl<T: Real + Blockwise> Interpreted<T> {
         write_inputs: &mut dyn FnMut(usize, &mut Inputs<'_, T>),
         read_outputs: &mut dyn FnMut(usize, &Outputs<'_, T>),
     ) {
-        let asked = self.outputs.iter().find(|asked| asked.output == output);
-        let asked = asked.expect("every output that is evaluated is listed");
-        let prepared = asked.prepared.get_or_init(|| {
+        let solver_output = self.outputs.iter().find(|it| it.output == output);
+        let solver_output = solver_output.expect("every output that is evaluated is listed");
+        let prepared = solver_output.prepared.get_or_init(|| {
             let plan = BlockPlan::new(&self.compiled.program, &[output], Output::is_quantity);
-            Prepared::new(Arc::new(plan), asked.mode, &self.parameters)
+            Prepared::new(Arc::new(plan), solver_output.mode, &self.parameters)
         });
-        asked.pool.with(|scratch| prepared.run(scratch, time, count, write_inputs, read_outputs));
+        solver_output
+            .pool
+            .with(|scratch| prepared.run(scratch, time, count, write_inputs, read_outputs));
     }
 
     /// Evaluates an output of positions. `place` maps the index of a component to its place in the result of a point; some
@@ -373,7 +375,7 @@ impl<T: Real + Blockwise, const D: usize> Material<T, D> for Interpreted<T> {
     }
 
     fn is_small_strain(&self) -> bool {
-        self.compiled.model.kind == Invariants::SmallStrain
+        self.compiled.model.kind == InvariantKind::SmallStrain
     }
 
     fn axisymmetric(&self) -> Option<&dyn Axisymmetric<T, D>> {

@@ -2,7 +2,7 @@
 
 use crate::amplitude::{Amplitude, rewritten};
 use crate::faults;
-use crate::invariant::{Invariants, SUPPLIED_VOLUME};
+use crate::invariant::{InvariantKind, SUPPLIED_VOLUME};
 use crate::kinematics::{Motion, Route, Strain, gradient_of, half_angles, traceless};
 use crate::material::{self, Law};
 use crate::model::Model;
@@ -180,8 +180,8 @@ pub(super) struct Present {
 }
 
 impl Present {
-    pub fn new(graph: &mut Graph, kind: &Invariants, strain: &Strain) -> Self {
-        if *kind == Invariants::SmallStrain {
+    pub fn new(graph: &mut Graph, kind: &InvariantKind, strain: &Strain) -> Self {
+        if *kind == InvariantKind::SmallStrain {
             let deformation = Tensor::identity(graph, strain.gradient.dimension());
             return Present { deformation, per_volume: graph.number(1), by_first: true };
         }

@@ -56,7 +56,7 @@ impl Invariant {
 
 /// The invariants that the density of a material is a function of.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Invariants {
+pub enum InvariantKind {
     /// I1, I2, I3 and J.
     Isotropic,
     /// I1, I2, I3, J and I4 = a0.C a0, of fibres in the unit reference direction a0. The vector has the components along the
@@ -66,13 +66,13 @@ pub enum Invariants {
     SmallStrain,
 }
 
-impl Invariants {
+impl InvariantKind {
     /// The departures that are the variables of a density of this kind.
     pub fn symbols(&self) -> &'static [Symbol] {
         match self {
-            Invariants::Isotropic => &[FIRST, SECOND, VOLUME],
-            Invariants::Fibrous(_) => &[FIRST, SECOND, VOLUME, FIBRE],
-            Invariants::SmallStrain => &[SMALL_TRACE, SMALL_SQUARE],
+            InvariantKind::Isotropic => &[FIRST, SECOND, VOLUME],
+            InvariantKind::Fibrous(_) => &[FIRST, SECOND, VOLUME, FIBRE],
+            InvariantKind::SmallStrain => &[SMALL_TRACE, SMALL_SQUARE],
         }
     }
 }

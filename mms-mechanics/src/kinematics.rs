@@ -7,7 +7,7 @@
 use crate::amplitude::{Amplitude, rewritten};
 use crate::axisymmetric;
 use crate::invariant::{
-    EXCESS, FIBRE, FIRST, Invariants, MINORS, SECOND, SMALL_SQUARE, SMALL_TRACE, VOLUME,
+    EXCESS, FIBRE, FIRST, InvariantKind, MINORS, SECOND, SMALL_SQUARE, SMALL_TRACE, VOLUME,
 };
 use crate::model::Model;
 use crate::samples::cancel;
@@ -85,7 +85,7 @@ impl Strain {
     pub fn new(
         graph: &mut Graph,
         gradient: Tensor,
-        kind: &Invariants,
+        kind: &InvariantKind,
         relations: &Relations,
     ) -> Self {
         let identity = Tensor::identity(graph, gradient.dimension());
@@ -112,7 +112,7 @@ impl Strain {
     pub fn without_cancellation(
         graph: &mut Graph,
         gradient: Tensor,
-        kind: &Invariants,
+        kind: &InvariantKind,
         [whole, relations]: [&Relations; 2],
         amplitude: Option<&Amplitude>,
     ) -> Self {
@@ -151,7 +151,7 @@ impl Strain {
     pub fn direct(
         graph: &mut Graph,
         gradient: Tensor,
-        kind: &Invariants,
+        kind: &InvariantKind,
         relations: &Relations,
     ) -> Self {
         let identity = Tensor::identity(graph, gradient.dimension());
@@ -179,18 +179,18 @@ impl Strain {
         graph: &mut Graph,
         Tensors { gradient, deformation, right, left }: Tensors,
         [volume, excess]: [Expr; 2],
-        kind: &Invariants,
+        kind: &InvariantKind,
         [relations, of_inverse]: [&Relations; 2],
     ) -> Self {
         let mut invariants: Vec<Expr> = match kind {
-            Invariants::Isotropic | Invariants::Fibrous(_) => {
+            InvariantKind::Isotropic | InvariantKind::Fibrous(_) => {
                 first_invariants(graph, &gradient, &right).into()
             }
-            Invariants::SmallStrain => small_invariants(graph, &gradient).into(),
+            InvariantKind::SmallStrain => small_invariants(graph, &gradient).into(),
         };
         let fibre = match kind {
-            Invariants::Fibrous(reference) => Some(Fibre::new(graph, reference, &deformation)),
-            Invariants::Isotropic | Invariants::SmallStrain => None,
+            InvariantKind::Fibrous(reference) => Some(Fibre::new(graph, reference, &deformation)),
+            InvariantKind::Isotropic | InvariantKind::SmallStrain => None,
         };
         invariants.push(volume);
         invariants.extend(fibre.as_ref().map(|fibre| fibre.stretch(graph, &right)));
@@ -198,8 +198,8 @@ impl Strain {
         let one = graph.number(1);
         let jacobian = graph.add(one, invariants[2]);
         let symbols = match kind {
-            Invariants::Isotropic | Invariants::Fibrous(_) => [FIRST, SECOND, VOLUME, FIBRE],
-            Invariants::SmallStrain => [SMALL_TRACE, SMALL_SQUARE, VOLUME, FIBRE],
+            InvariantKind::Isotropic | InvariantKind::Fibrous(_) => [FIRST, SECOND, VOLUME, FIBRE],
+            InvariantKind::SmallStrain => [SMALL_TRACE, SMALL_SQUARE, VOLUME, FIBRE],
         };
         let mut invariants: SortedMap<Symbol, Expr> = symbols.into_iter().zip(invariants).collect();
         let minors = right.principal_minors(graph, 2);
@@ -335,8 +335,8 @@ impl Motion {
             }
         };
         let fibre_gradient = match kind {
-            Invariants::Fibrous(direction) => Some(gradient_of(graph, model, direction)),
-            Invariants::Isotropic | Invariants::SmallStrain => None,
+            InvariantKind::Fibrous(direction) => Some(gradient_of(graph, model, direction)),
+            InvariantKind::Isotropic | InvariantKind::SmallStrain => None,
         };
         let amplitude = match route {
             Route::Settled(amplitude) => amplitude,
@@ -360,7 +360,7 @@ impl Motion {
         };
         if !relations.is_empty() && !matches!(route, Route::Settled(_)) {
             motion.differentiate_invariants(graph, relations);
-        } else if *kind == Invariants::SmallStrain {
+        } else if *kind == InvariantKind::SmallStrain {
             motion.contract_small_strain(graph);
         } else {
             motion.contract_invariants(graph);

@@ -5,7 +5,7 @@
 
 use crate::expansion;
 use crate::finite::{self, Finite};
-use crate::invariant::Invariants;
+use crate::invariant::InvariantKind;
 use crate::kinematics::{Motion, Strain};
 use crate::small_strain::{self, SmallStrain};
 use crate::tensor::{Tensor, dot};
@@ -34,18 +34,18 @@ enum Stress {
 
 impl Law {
     /// Derives the coefficients of the stress from W, a density of that kind.
-    pub fn new(graph: &mut Graph, energy: Expr, kind: &Invariants) -> Self {
+    pub fn new(graph: &mut Graph, energy: Expr, kind: &InvariantKind) -> Self {
         let stress = match kind {
-            Invariants::Isotropic | Invariants::Fibrous(_) => {
+            InvariantKind::Isotropic | InvariantKind::Fibrous(_) => {
                 Stress::Finite(Finite::new(graph, energy, kind.symbols()))
             }
-            Invariants::SmallStrain => Stress::SmallStrain(SmallStrain::new(graph, energy)),
+            InvariantKind::SmallStrain => Stress::SmallStrain(SmallStrain::new(graph, energy)),
         };
         let second_order = match kind {
-            Invariants::Isotropic | Invariants::Fibrous(_) => {
+            InvariantKind::Isotropic | InvariantKind::Fibrous(_) => {
                 expansion::of_second_order(graph, energy)
             }
-            Invariants::SmallStrain => energy,
+            InvariantKind::SmallStrain => energy,
         };
         Law { energy, second_order, stress }
     }
@@ -92,11 +92,11 @@ impl Law {
     ///
     /// In an isotropic solid no wave is faster. With fibres it is the greater of two, along the fibres and across them. It is
     /// assumed that W is stiffest in one of these directions, and stiffer in stretch than in shear.
-    pub fn fastest_modulus(&self, graph: &mut Graph, kind: &Invariants) -> Expr {
-        let Invariants::Fibrous(_) = kind else { return self.longitudinal_modulus(graph, kind) };
+    pub fn fastest_modulus(&self, graph: &mut Graph, kind: &InvariantKind) -> Expr {
+        let InvariantKind::Fibrous(_) = kind else { return self.longitudinal_modulus(graph, kind) };
         let [along, across] = [1, 0].map(|component| {
             let direction = vec![graph.number(component)];
-            self.longitudinal_modulus(graph, &Invariants::Fibrous(direction))
+            self.longitudinal_modulus(graph, &InvariantKind::Fibrous(direction))
         });
         // The greater of a and b is half of a + b + |a - b|.
         let difference = graph.sub(along, across);
@@ -106,7 +106,7 @@ impl Law {
     }
 
     /// dP_11/dF_11 at F = I, of a stretch along the first axis.
-    fn longitudinal_modulus(&self, graph: &mut Graph, kind: &Invariants) -> Expr {
+    fn longitudinal_modulus(&self, graph: &mut Graph, kind: &InvariantKind) -> Expr {
         let stretch = Symbol::Gradient(0, 0);
         let component = graph.symbol(stretch);
         let gradient = Tensor::from_components(1, vec![component]);
@@ -124,10 +124,15 @@ impl Law {
 /// ```text
 /// dP_iJ/dF_kL = W_ab (G_a)_iJ (G_b)_kL + W_a d(G_a)_iJ/dF_kL
 /// ```
-pub fn tangent(graph: &mut Graph, energy: Expr, kind: &Invariants, strain: &Strain) -> Vec<Expr> {
+pub fn tangent(
+    graph: &mut Graph,
+    energy: Expr,
+    kind: &InvariantKind,
+    strain: &Strain,
+) -> Vec<Expr> {
     let (symbols, gradients): (Vec<Symbol>, Vec<_>) = match kind {
-        Invariants::Isotropic | Invariants::Fibrous(_) => finite::gradients(graph, strain),
-        Invariants::SmallStrain => small_strain::gradients(graph, strain),
+        InvariantKind::Isotropic | InvariantKind::Fibrous(_) => finite::gradients(graph, strain),
+        InvariantKind::SmallStrain => small_strain::gradients(graph, strain),
     }
     .into_iter()
     .unzip();

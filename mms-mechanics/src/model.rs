@@ -8,7 +8,7 @@ mod written;
 
 pub use superposed::{RigidMotion, Rotation};
 
-use crate::invariant::Invariants;
+use crate::invariant::InvariantKind;
 use crate::meanings::Meanings;
 use crate::region::Region;
 use crate::resolve::Scope;
@@ -101,7 +101,7 @@ pub struct Model {
     /// W, as a function of the material's invariants.
     pub energy: Expr,
     /// The invariants that W is a function of, and the direction of the fibres.
-    pub kind: Invariants,
+    pub kind: InvariantKind,
     /// a0 in space, if W is a function of I4.
     pub fibre: Option<Vec<Expr>>,
     /// Poisson's ratio, if the field states it instead of the material's own moduli.
@@ -227,8 +227,8 @@ impl Model {
     pub fn in_space(&self) -> Vec<Expr> {
         let fibre = self.fibre.iter().flatten();
         let direction = match &self.kind {
-            Invariants::Fibrous(direction) => &direction[..],
-            Invariants::Isotropic | Invariants::SmallStrain => &[],
+            InvariantKind::Fibrous(direction) => &direction[..],
+            InvariantKind::Isotropic | InvariantKind::SmallStrain => &[],
         };
         let others = self.arguments.iter().chain(fibre).chain(direction).chain(&self.poisson);
         let own = self.givens.iter().chain(self.own.values().flatten());
@@ -257,7 +257,7 @@ impl Model {
         self.fibre = self.fibre.as_deref().map(&mut made);
         self.radius = self.radius.map(|radius| made(&[radius])[0]);
         self.poisson = self.poisson.map(|poisson| made(&[poisson])[0]);
-        if let Invariants::Fibrous(direction) = &mut self.kind {
+        if let InvariantKind::Fibrous(direction) = &mut self.kind {
             *direction = made(direction);
         }
         for check in &mut self.checks {

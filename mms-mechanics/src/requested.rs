@@ -10,7 +10,7 @@
 //! At small strain there is one stress: S and sigma are P.
 
 use crate::derivation::{Derivation, TooLarge, within_bound};
-use crate::invariant::Invariants;
+use crate::invariant::InvariantKind;
 use crate::kinematics::{Strain, gradient_of};
 use crate::material::Law;
 use crate::model::Model;
@@ -41,12 +41,12 @@ pub fn requested(
         false => zero,
     });
     let kind = match (&model.kind, &model.fibre) {
-        (Invariants::Fibrous(_), Some(direction)) => Invariants::Fibrous(direction.clone()),
+        (InvariantKind::Fibrous(_), Some(direction)) => InvariantKind::Fibrous(direction.clone()),
         (other, _) => other.clone(),
     };
     let strain = Strain::new(graph, padded, &kind, &Relations::default());
     let law = Law::new(graph, model.energy, &kind);
-    let is_small = kind == Invariants::SmallStrain;
+    let is_small = kind == InvariantKind::SmallStrain;
     let components = match quantity {
         Quantity::SecondPiolaKirchhoff => {
             let first = law.first_piola_kirchhoff(graph, &strain);

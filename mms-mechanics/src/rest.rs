@@ -1,6 +1,6 @@
 //! The material at F = I, in three dimensions for every field, with each given field in its state of rest.
 
-use crate::invariant::Invariants;
+use crate::invariant::InvariantKind;
 use crate::kinematics::Strain;
 use crate::material::{self, Law};
 use crate::model::{Model, energy_with};
@@ -13,7 +13,7 @@ use mms_symbolic::pass::relations::Relations;
 /// The stress and the stiffness at F = I: 9 components of P and 81 of dP/dF, the last index fastest.
 pub fn at_rest(graph: &mut Graph, model: &Model) -> [Vec<Expr>; 2] {
     let kind = match (&model.kind, &model.fibre) {
-        (Invariants::Fibrous(_), Some(fibre)) => Invariants::Fibrous(fibre.clone()),
+        (InvariantKind::Fibrous(_), Some(fibre)) => InvariantKind::Fibrous(fibre.clone()),
         (kind, _) => kind.clone(),
     };
     let strain = undeformed(graph, &kind);
@@ -62,8 +62,8 @@ pub fn is_spherical(graph: &Graph, components: &[Expr]) -> bool {
 /// modulus along them.
 pub fn moduli(graph: &mut Graph, model: &Model) -> Vec<(&'static str, Expr)> {
     let kind = match &model.kind {
-        Invariants::Fibrous(_) => {
-            Invariants::Fibrous([1, 0, 0].map(|entry| graph.number(entry)).to_vec())
+        InvariantKind::Fibrous(_) => {
+            InvariantKind::Fibrous([1, 0, 0].map(|entry| graph.number(entry)).to_vec())
         }
         kind => kind.clone(),
     };
@@ -77,11 +77,11 @@ pub fn moduli(graph: &mut Graph, model: &Model) -> Vec<(&'static str, Expr)> {
         [[0, 0, 0, 0], [0, 0, 1, 1], [1, 1, 1, 1], [1, 1, 2, 2]].map(entry);
     let mut sum = |terms: [(Expr, Rational); 2]| graph.sum(terms);
     match kind {
-        Invariants::Isotropic | Invariants::SmallStrain => {
+        InvariantKind::Isotropic | InvariantKind::SmallStrain => {
             let dilatation = sum([(along, Rational::ONE), (coupling, 2.into())]);
             vec![("mu", shear), ("3 lambda + 2 mu", dilatation)]
         }
-        Invariants::Fibrous(_) => {
+        InvariantKind::Fibrous(_) => {
             let turned = sum([(across, HALF), (sideways, -HALF)]);
             let around = sum([(across, Rational::ONE), (sideways, Rational::ONE)]);
             let square = graph.power(coupling, 2);
@@ -97,7 +97,7 @@ pub fn moduli(graph: &mut Graph, model: &Model) -> Vec<(&'static str, Expr)> {
     }
 }
 
-fn undeformed(graph: &mut Graph, kind: &Invariants) -> Strain {
+fn undeformed(graph: &mut Graph, kind: &InvariantKind) -> Strain {
     let gradient = Tensor::from_fn(3, |_, _| graph.number(0));
     Strain::new(graph, gradient, kind, &Relations::default())
 }

@@ -9,7 +9,7 @@
 //! one stress, P = P^T = S = tau = sigma, and rho = rho0 (`derivation::Present`).
 
 use crate::faults;
-use crate::invariant::{Invariants, SMALL_SQUARE, SMALL_TRACE};
+use crate::invariant::{InvariantKind, SMALL_SQUARE, SMALL_TRACE};
 use crate::kinematics::{Motion, Strain};
 use crate::material::{Gradient, at, gradient};
 use crate::tensor::{Tensor, dot};
@@ -53,7 +53,7 @@ impl SmallStrain {
             (motion.laplacian(graph), motion.contract_second_gradient(graph, &identity));
         let dilatation = faults::dilatation(graph, dilatation);
         let shear = at(graph, &motion.strain, &[self.shear])[0];
-        let symbols = Invariants::SmallStrain.symbols();
+        let symbols = InvariantKind::SmallStrain.symbols();
         let [pressure_slope, shear_slope] =
             [self.pressure, self.shear].map(|root| gradient(graph, motion, root, symbols));
         (0..dimension)

@@ -127,8 +127,8 @@ impl<T: Precision> Evaluator<T> {
             let found = spawned.into_iter().enumerate().try_for_each(|(at, thread)| {
                 match thread.join().expect("a panic is passed on") {
                     Ok(()) => ControlFlow::Continue(()),
-                    Err(odd) => {
-                        ControlFlow::Break(NonFinite { index: at * each + odd.index, ..odd })
+                    Err(number) => {
+                        ControlFlow::Break(NonFinite { index: at * each + number.index, ..number })
                     }
                 }
             });

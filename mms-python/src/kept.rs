@@ -44,9 +44,9 @@ impl Stay {
         t: Option<f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let points = self.points(py, opened)?;
-        opened.asked(quantity, t, |asked| match &points.numbers {
-            Numbers::Single(x) => filled(py, opened, asked, (&points, x), &self.single),
-            Numbers::Double(x) => filled(py, opened, asked, (&points, x), &self.double),
+        opened.with_request(quantity, t, |request| match &points.numbers {
+            Numbers::Single(x) => filled(py, opened, request, (&points, x), &self.single),
+            Numbers::Double(x) => filled(py, opened, request, (&points, x), &self.double),
         })
     }
 }
@@ -54,33 +54,33 @@ impl Stay {
 fn filled<'py, T: Evaluated + Number + Blockwise>(
     py: Python<'py>,
     opened: &Opened,
-    asked: &OutputRequest<'_>,
+    request: &OutputRequest<'_>,
     (points, x): (&Points<'py>, &PyReadonlyArrayDyn<'py, T>),
     known: &Known<T>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let (dimension, layout) = (opened.dimension(), &points.layout);
-    let evaluator = T::of(opened).evaluator(&opened.input, asked.output)?;
+    let evaluator = T::of(opened).evaluator(&opened.input, request.output)?;
     let x = x.as_slice()?;
-    let odd = |odd: NonFinite| opened.odd(asked, layout, odd);
+    let number = |number: NonFinite| opened.not_finite(request, layout, number);
     let lock = || known.lock().unwrap_or_else(PoisonError::into_inner);
-    let find = || lock().iter().find(|(it, _)| *it == asked.output).map(|(_, it)| it.clone());
+    let find = || lock().iter().find(|(it, _)| *it == request.output).map(|(_, it)| it.clone());
     let kept = match find() {
         Some(kept) => kept,
         None => {
-            let kept = Arc::new(py.detach(|| evaluator.keep(dimension, x)).map_err(odd)?);
-            lock().push((asked.output, kept.clone()));
+            let kept = Arc::new(py.detach(|| evaluator.keep(dimension, x)).map_err(number)?);
+            lock().push((request.output, kept.clone()));
             kept
         }
     };
-    let (time, count, components) = (T::near(asked.time), layout.count(), evaluator.components());
-    let result = scratch::<T>(py, layout.shape(asked.own));
+    let (time, count, components) = (T::near(request.time), layout.count(), evaluator.components());
+    let result = scratch::<T>(py, layout.shape(request.own));
     let mut writable = result.readwrite();
     let values = writable.as_slice_mut()?;
     for start in (0..count).step_by(STRETCH) {
         let end = count.min(start + STRETCH);
         let own = &mut values[start * components..end * components];
         let of = (dimension, x, &*kept);
-        py.detach(|| evaluator.fill_kept(time, of, start, own)).map_err(odd)?;
+        py.detach(|| evaluator.fill_kept(time, of, start, own)).map_err(number)?;
         if end < count {
             py.check_signals()?;
         }

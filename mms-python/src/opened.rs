@@ -239,14 +239,14 @@ impl Opened {
         points: &Points<'py>,
         t: Option<f64>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        self.asked(quantity, t, |asked| match &points.numbers {
-            Numbers::Single(x) => self.filled(py, asked, At::points(&points.layout, x, face)),
-            Numbers::Double(x) => self.filled(py, asked, At::points(&points.layout, x, face)),
+        self.with_request(quantity, t, |request| match &points.numbers {
+            Numbers::Single(x) => self.filled(py, request, At::points(&points.layout, x, face)),
+            Numbers::Double(x) => self.filled(py, request, At::points(&points.layout, x, face)),
         })
     }
 
     /// Runs `work` with the request for a quantity at a time.
-    pub fn asked<R>(
+    pub fn with_request<R>(
         &self,
         quantity: Quantity,
         t: Option<f64>,
@@ -278,7 +278,7 @@ impl Opened {
         let of = format!("displacement gradients of `{}`", self.input.name.shown());
         let numbers = Numbers::of("H", gradients)?;
         let layout = Layout::of("H", numbers.shape(), &own, &of)?;
-        let asked = OutputRequest { output, name: "P", own: &own, time };
+        let request = OutputRequest { output, name: "P", own: &own, time };
         let x = x.map(|x| Points::given(x, self)).transpose()?;
         if x.as_ref().is_some_and(|x| x.layout.leading != layout.leading) {
             return Err(mistake("`X` and `H` are of different points: expected one X for each H"));
@@ -286,17 +286,21 @@ impl Opened {
         let at = (&layout, x.map(|x| x.numbers));
         match (&numbers, at) {
             (Numbers::Double(h), (layout, None)) => {
-                self.filled(py, &asked, At { layout, x: None, face: None, gradients: Some(h) })
+                self.filled(py, &request, At { layout, x: None, face: None, gradients: Some(h) })
             }
             (Numbers::Single(h), (layout, None)) => {
-                self.filled(py, &asked, At { layout, x: None, face: None, gradients: Some(h) })
+                self.filled(py, &request, At { layout, x: None, face: None, gradients: Some(h) })
             }
-            (Numbers::Double(h), (layout, Some(Numbers::Double(x)))) => {
-                self.filled(py, &asked, At { layout, x: Some(&x), face: None, gradients: Some(h) })
-            }
-            (Numbers::Single(h), (layout, Some(Numbers::Single(x)))) => {
-                self.filled(py, &asked, At { layout, x: Some(&x), face: None, gradients: Some(h) })
-            }
+            (Numbers::Double(h), (layout, Some(Numbers::Double(x)))) => self.filled(
+                py,
+                &request,
+                At { layout, x: Some(&x), face: None, gradients: Some(h) },
+            ),
+            (Numbers::Single(h), (layout, Some(Numbers::Single(x)))) => self.filled(
+                py,
+                &request,
+                At { layout, x: Some(&x), face: None, gradients: Some(h) },
+            ),
             _ => Err(mistake("`X` and `H` have different precisions: expected one dtype for both")),
         }
     }
@@ -304,18 +308,18 @@ impl Opened {
     fn filled<'py, T: Evaluated + Number>(
         &self,
         py: Python<'py>,
-        asked: &OutputRequest<'_>,
+        request: &OutputRequest<'_>,
         at: At<'_, 'py, T>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (dimension, rows) = (self.dimension(), self.compiled().field.space.rows());
         let (ready, layout) = (T::of(self), at.layout);
-        let evaluator = ready.evaluator(&self.input, asked.output)?;
+        let evaluator = ready.evaluator(&self.input, request.output)?;
         let normal = match at.face {
             Some(face) => Some(ready.evaluator(&self.input, Output::Face(face, Datum::Normal))?),
             None => None,
         };
-        let (time, count) = (T::near(asked.time), layout.count());
-        let result = scratch::<T>(py, layout.shape(asked.own));
+        let (time, count) = (T::near(request.time), layout.count());
+        let result = scratch::<T>(py, layout.shape(request.own));
         let mut writable = result.readwrite();
         let values = writable.as_slice_mut()?;
         for start in (0..count).step_by(STRETCH) {
@@ -343,8 +347,12 @@ impl Opened {
             };
             // Releasing and acquiring the GIL takes as long as a few points.
             let filled = if count < FEW { fill() } else { py.detach(fill) };
-            filled.map_err(|odd| {
-                self.odd(asked, layout, NonFinite { index: start + odd.index, ..odd })
+            filled.map_err(|number| {
+                self.not_finite(
+                    request,
+                    layout,
+                    NonFinite { index: start + number.index, ..number },
+                )
             })?;
             if ends[1] < count {
                 py.check_signals()?;
@@ -355,18 +363,23 @@ impl Opened {
     }
 
     /// The exception for an input or a result that is not finite.
-    pub fn odd(&self, asked: &OutputRequest<'_>, layout: &Layout, odd: NonFinite) -> PyErr {
-        let place = layout.place(odd.index);
-        mistake(match odd.is_input {
+    pub fn not_finite(
+        &self,
+        request: &OutputRequest<'_>,
+        layout: &Layout,
+        number: NonFinite,
+    ) -> PyErr {
+        let place = layout.place(number.index);
+        mistake(match number.is_input {
             true => format!(
                 "the point at {place} has a number that is not finite: expected finite numbers"
             ),
             false => format!(
                 "{} of `{}` is not finite at the point at {place}, t = {:?}: not defined there, or beyond the range of the \
                  precision",
-                asked.name,
+                request.name,
                 self.input.name.shown(),
-                asked.time
+                request.time
             ),
         })
     }

@@ -209,8 +209,8 @@ fn capitalised(text: &str) -> String {
 }
 
 /// The words for the answers of checks: an objection, no objection, or unknown.
-fn words(looks: Objections) -> [String; Check::ALL.len()] {
-    looks.0.map(|objects| match objects {
+fn words(objections: Objections) -> [String; Check::ALL.len()] {
+    objections.0.map(|objects| match objects {
         Some(true) => "objects".to_owned(),
         Some(false) => "content".to_owned(),
         None => "-".to_owned(),

@@ -98,7 +98,7 @@ struct QuadratureRule {
 }
 
 impl QuadratureRule {
-    /// A table with `count` points along an axis.
+    /// A rule with `count` points along an axis.
     fn new(shape: &'static Shape, count: usize) -> Self {
         let (dimension, along) = (shape.dimension, gauss(count));
         let knots: Vec<f64> = along.iter().map(|it| it.0).collect();
@@ -145,7 +145,7 @@ impl QuadratureRule {
 /// The quadrature points of some cells, and the values computed there.
 #[derive(Default)]
 struct Batch {
-    /// Each cell, and the position of its table.
+    /// Each cell, and the position of its rule.
     cells: Vec<(usize, usize)>,
     places: Vec<f64>,
     weights: Vec<f64>,
@@ -162,7 +162,7 @@ struct Batch {
 struct Peak {
     error: f64,
     cell: usize,
-    table: usize,
+    rule: usize,
     /// The place in the cube from which the next round searches.
     search_from: Local,
     /// The place in the cube at which `error` was computed.
@@ -194,7 +194,7 @@ impl Mesh<'_> {
     pub fn volumes(&self) -> Result<Vec<f64>, Mistake> {
         let mut volumes = vec![0.0; self.points.len() / self.dimension];
         let none = Carried { values: &[], components: 0, has_gradient: false };
-        let mut tables = Vec::new();
+        let mut rules = Vec::new();
         let mut batch = Batch::default();
         for (cell, shape, points) in self.full() {
             if !shape.has_functions() {
@@ -210,10 +210,10 @@ impl Mesh<'_> {
             // Exact for the function of a point times the volume of a cell with straight edges, and for the volume of a cell
             // with curved edges. The radius adds one degree.
             let degree = shape.highest() as usize + usize::from(self.is_meridian);
-            let table = QuadratureRule::among(&mut tables, shape, (degree + 2).max(2 * degree));
+            let rule = QuadratureRule::among(&mut rules, shape, (degree + 2).max(2 * degree));
             batch.clear();
-            self.place(&mut batch, cell, &tables[table], points, none)?;
-            for (weight, at) in batch.weights.iter().zip(&tables[table].points) {
+            self.place(&mut batch, cell, &rules[rule], points, none)?;
+            for (weight, at) in batch.weights.iter().zip(&rules[rule].points) {
                 let parts = points.iter().zip(&at.functions);
                 parts.for_each(|(&point, value)| volumes[point] += weight * value);
             }
@@ -231,8 +231,8 @@ impl Mesh<'_> {
     /// # Errors
     /// A cell that is flat, or turned inside out; errors of the exact solution.
     pub fn measure(&self, carried: Carried<'_>, exact: Exact<'_>) -> Result<OverCells, Mistake> {
-        let mut found = Totals::default();
-        let mut tables: Vec<QuadratureRule> = Vec::new();
+        let mut totals = Totals::default();
+        let mut rules: Vec<QuadratureRule> = Vec::new();
         let mut batch = Batch::default();
         for (cell, shape, points) in self.full() {
             if !shape.has_functions() {
@@ -240,22 +240,22 @@ impl Mesh<'_> {
                     "cell {cell} is a polygon: what is between its points is not known"
                 )));
             }
-            let table = QuadratureRule::among(&mut tables, shape, shape.along());
-            self.place(&mut batch, cell, &tables[table], points, carried)?;
-            batch.cells.push((cell, table));
+            let rule = QuadratureRule::among(&mut rules, shape, shape.along());
+            self.place(&mut batch, cell, &rules[rule], points, carried)?;
+            batch.cells.push((cell, rule));
             if batch.weights.len() >= BATCH {
-                self.add(&mut found, &mut batch, &tables, carried, exact)?;
+                self.add(&mut totals, &mut batch, &rules, carried, exact)?;
             }
         }
-        self.add(&mut found, &mut batch, &tables, carried, exact)?;
-        if found.volume.is_nan() || found.volume <= 0.0 {
+        self.add(&mut totals, &mut batch, &rules, carried, exact)?;
+        if totals.volume.is_nan() || totals.volume <= 0.0 {
             return Err(Mistake::new("no cell of the dimension of the field"));
         }
-        let place = self.climb(&mut found, &tables, carried, exact)?;
-        let (linf, at) = found.largest;
-        let root = |sum: f64| (sum / found.volume).sqrt();
-        let value = Norms { l1: found.first / found.volume, l2: root(found.second), linf, at };
-        Ok(OverCells { value, place, h1: root(found.gradient) })
+        let place = self.climb(&mut totals, &rules, carried, exact)?;
+        let (linf, at) = totals.largest;
+        let root = |sum: f64| (sum / totals.volume).sqrt();
+        let value = Norms { l1: totals.first / totals.volume, l2: root(totals.second), linf, at };
+        Ok(OverCells { value, place, h1: root(totals.gradient) })
     }
 
     /// Adds the points of quadrature of a cell to a batch.
@@ -263,7 +263,7 @@ impl Mesh<'_> {
         &self,
         batch: &mut Batch,
         cell: usize,
-        table: &QuadratureRule,
+        rule: &QuadratureRule,
         points: &[usize],
         Carried { values, components, has_gradient }: Carried<'_>,
     ) -> Result<(), Mistake> {
@@ -279,7 +279,7 @@ impl Mesh<'_> {
         // The values at a point, and their derivatives along the axes of the cell.
         let mut sums = vec![0.0; 4 * size];
         let mut sign = 0.0;
-        for Point { weight, factor, functions, slopes } in &table.points {
+        for Point { weight, factor, functions, slopes } in &rule.points {
             sums.fill(0.0);
             let by = [functions, &slopes[0], &slopes[1], &slopes[2]];
             for (by, sums) in by.into_iter().zip(sums.chunks_exact_mut(size)) {
@@ -330,9 +330,9 @@ impl Mesh<'_> {
     /// Adds the errors of a batch, and empties it.
     fn add(
         &self,
-        found: &mut Totals,
+        totals: &mut Totals,
         batch: &mut Batch,
-        tables: &[QuadratureRule],
+        rules: &[QuadratureRule],
         Carried { components, has_gradient, .. }: Carried<'_>,
         exact: Exact<'_>,
     ) -> Result<(), Mistake> {
@@ -347,15 +347,15 @@ impl Mesh<'_> {
             less(&mut batch.gradients, &exact(SolutionPart::Gradients, &batch.places)?);
             let squares = batch.gradients.chunks_exact(batch.gradients.len() / batch.weights.len());
             let squares = batch.weights.iter().zip(squares.map(square));
-            found.gradient += squares.map(|(weight, it)| weight * it).sum::<f64>();
+            totals.gradient += squares.map(|(weight, it)| weight * it).sum::<f64>();
         }
         let mut first = 0;
-        for &(cell, table) in &batch.cells {
-            let own = first..first + tables[table].points.len();
+        for &(cell, rule) in &batch.cells {
+            let own = first..first + rules[rule].points.len();
             first = own.end;
             let errors = &batch.values[own.start * components..own.end * components];
             let of_points = [&batch.weights[own.clone()], &batch.densities[own]];
-            found.add_cell((cell, table), &tables[table], errors, of_points);
+            totals.add_cell((cell, rule), &rules[rule], errors, of_points);
         }
         batch.clear();
         Ok(())
@@ -365,17 +365,17 @@ impl Mesh<'_> {
     /// Returns the place X of the largest error; the middle of its cell, if it is at a point of quadrature.
     fn climb(
         &self,
-        found: &mut Totals,
-        tables: &[QuadratureRule],
+        totals: &mut Totals,
+        rules: &[QuadratureRule],
         carried: Carried<'_>,
         exact: Exact<'_>,
     ) -> Result<Vec<f64>, Mistake> {
-        found.keep_peaks();
+        totals.keep_peaks();
         let dimension = self.dimension;
-        found.peaks.iter_mut().for_each(|it| it.error = 0.0);
+        totals.peaks.iter_mut().for_each(|it| it.error = 0.0);
         let mut part = 0.5;
         for _ in 0..ROUNDS {
-            let step_of = |peak: &Peak| part / tables[peak.table].steps as f64;
+            let step_of = |peak: &Peak| part / rules[peak.rule].steps as f64;
             let beside = |peak: &Peak| {
                 let (at, step) = (peak.search_from, step_of(peak));
                 let moved = (0..2 * dimension).map(move |which| {
@@ -386,14 +386,14 @@ impl Mesh<'_> {
                 });
                 std::iter::once(at).chain(moved)
             };
-            let tried: Vec<Peak> = found
+            let tried: Vec<Peak> = totals
                 .peaks
                 .iter()
                 .flat_map(|peak| beside(peak).map(|at| Peak { search_from: at, ..*peak }))
                 .collect();
-            let errors = self.errors_at(&tried, tables, carried, exact)?;
+            let errors = self.errors_at(&tried, rules, carried, exact)?;
             let count = 2 * dimension + 1;
-            let each = found.peaks.iter_mut().zip(errors.chunks(count).zip(tried.chunks(count)));
+            let each = totals.peaks.iter_mut().zip(errors.chunks(count).zip(tried.chunks(count)));
             for (peak, (errors, tried)) in each {
                 for (error, tried) in errors.iter().zip(tried).filter(|it| !it.0.is_nan()) {
                     if *error > peak.error {
@@ -415,12 +415,12 @@ impl Mesh<'_> {
             part *= SHRINKS;
         }
         let mut best_place = [0.5; 3];
-        for peak in &found.peaks {
-            if peak.error > found.largest.0 {
-                (found.largest, best_place) = ((peak.error, peak.cell), peak.best_place);
+        for peak in &totals.peaks {
+            if peak.error > totals.largest.0 {
+                (totals.largest, best_place) = ((peak.error, peak.cell), peak.best_place);
             }
         }
-        let cell = found.largest.1;
+        let cell = totals.largest.1;
         let points = self.full().find(|it| it.0 == cell);
         Ok(points.map_or_else(Vec::new, |(_, shape, points)| {
             let functions = shape.values(shape.of_cube(best_place).0);
@@ -435,7 +435,7 @@ impl Mesh<'_> {
     fn errors_at(
         &self,
         all: &[Peak],
-        tables: &[QuadratureRule],
+        rules: &[QuadratureRule],
         Carried { values, components, .. }: Carried<'_>,
         exact: Exact<'_>,
     ) -> Result<Vec<f64>, Mistake> {
@@ -443,7 +443,7 @@ impl Mesh<'_> {
         for peak in all {
             let start = peak.cell.checked_sub(1).map_or(0, |before| self.cells.ends[before]);
             let points = &self.cells.points[start..self.cells.ends[peak.cell]];
-            let shape = tables[peak.table].shape;
+            let shape = rules[peak.rule].shape;
             let functions = shape.values(shape.of_cube(peak.search_from).0);
             let sum = |of: &[f64], size: usize, to: &mut Vec<f64>| {
                 let each = |k: usize| {
@@ -464,7 +464,7 @@ impl Totals {
     /// Adds the errors of a cell at its quadrature points, with the weights and densities there.
     fn add_cell(
         &mut self,
-        (cell, table): (usize, usize),
+        (cell, rule): (usize, usize),
         of: &QuadratureRule,
         errors: &[f64],
         [weights, densities]: [&[f64]; 2],
@@ -490,7 +490,7 @@ impl Totals {
             && errors.chunks_exact(components).all(|error| along(error) >= 0.0);
         self.first += if is_smooth { first } else { self.integral(of, errors, densities) };
         if BETWEEN * largest > self.best {
-            self.search((cell, table), of, errors, components);
+            self.search((cell, rule), of, errors, components);
         }
     }
 
@@ -512,7 +512,7 @@ impl Totals {
     /// Searches the maximum of a polynomial: at the ends of parts, and, where it is large there, by a parabola along each axis.
     fn search(
         &mut self,
-        (cell, table): (usize, usize),
+        (cell, rule): (usize, usize),
         of: &QuadratureRule,
         errors: &[f64],
         components: usize,
@@ -544,7 +544,7 @@ impl Totals {
             let error = most.sqrt();
             self.best = self.best.max(error);
             if error > NEAR * self.best {
-                self.peaks.push(Peak { error, cell, table, search_from: place, best_place: place });
+                self.peaks.push(Peak { error, cell, rule, search_from: place, best_place: place });
             }
         }
         if self.peaks.len() > 4 * COMPARED {

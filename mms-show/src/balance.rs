@@ -6,7 +6,7 @@ use super::motion::{Formulas, Quantities, derivatives};
 use super::name::{Along, Name};
 use super::reading::{Reading, Role};
 use mms_codegen::compile::Compiled;
-use mms_mechanics::invariant::Invariants;
+use mms_mechanics::invariant::InvariantKind;
 use mms_spec::own::Part;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Expr;
@@ -70,7 +70,7 @@ pub(super) fn measures(reading: &mut Reading, compiled: &Compiled, quantities: &
     let jacobian = quantities.component(reading, Quantity::Jacobian, 0);
     let nominal = first.transpose();
     quantities.add(reading, compiled, Quantity::NominalStress, nominal.components());
-    if compiled.model.kind == Invariants::SmallStrain {
+    if compiled.model.kind == InvariantKind::SmallStrain {
         quantities.add(reading, compiled, Quantity::CauchyStress, first.components());
         quantities.add(reading, compiled, Quantity::KirchhoffStress, first.components());
         return;
@@ -136,7 +136,7 @@ pub(super) fn current(
         (Quantity::CurrentBodyForceDensity, force),
     ] {
         let values: Vec<Expr> = match compiled.model.kind {
-            Invariants::SmallStrain => reference,
+            InvariantKind::SmallStrain => reference,
             _ => reference.into_iter().map(|it| reading.graph.div(it, jacobian)).collect(),
         };
         quantities.add(reading, compiled, quantity, &values);

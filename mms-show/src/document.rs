@@ -11,7 +11,7 @@ use mms_analysis::visibility::Visibility;
 use mms_codegen::compile::Compiled;
 use mms_mechanics::Output;
 use mms_mechanics::TooLarge;
-use mms_mechanics::invariant::Invariants;
+use mms_mechanics::invariant::InvariantKind;
 use mms_program::Stage;
 use mms_spec::foreign::Foreign;
 use mms_spec::quantity::Quantity;
@@ -51,7 +51,7 @@ pub struct Material {
     /// A description in a few words.
     pub title: Foreign,
     /// The kind of invariants that W is a function of.
-    pub kind: Invariants,
+    pub kind: InvariantKind,
     /// W in the parameters of the material and in the invariants, after the parts that it is put
     /// together from.
     pub energy: Vec<Line>,

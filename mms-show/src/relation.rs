@@ -1,6 +1,6 @@
 //! The definition of each quantity, as a person writes it: declared once, set by every notation.
 
-use mms_mechanics::invariant::Invariants;
+use mms_mechanics::invariant::InvariantKind;
 use mms_spec::own::Described;
 use mms_spec::own::Part::{Flux, Gradient, NormalFlux, Rate, Residual, Source, Value};
 use mms_spec::quantity::Quantity;
@@ -42,7 +42,7 @@ const SMALL: &[Part] = &[Tensor("epsilon")];
 const ARGUMENTS: &[Part] = &[Tensor("X"), COMMA, Scalar("t")];
 
 /// The definition of a quantity, for a density of that kind, of a field that moves or is static.
-pub fn relation(quantity: Quantity, kind: &Invariants, is_static: bool) -> Vec<Part> {
+pub fn relation(quantity: Quantity, kind: &InvariantKind, is_static: bool) -> Vec<Part> {
     match quantity {
         Quantity::Own(own) => of_own(own.described(), is_static),
         quantity => of_every_field(quantity, kind, is_static).to_vec(),
@@ -69,8 +69,8 @@ fn arguments(is_static: bool) -> &'static [Part] {
     if is_static { &ARGUMENTS[..1] } else { ARGUMENTS }
 }
 
-fn of_every_field(quantity: Quantity, kind: &Invariants, is_static: bool) -> &'static [Part] {
-    if let (Invariants::SmallStrain, Some(relation)) = (kind, of_small_strain(quantity)) {
+fn of_every_field(quantity: Quantity, kind: &InvariantKind, is_static: bool) -> &'static [Part] {
+    if let (InvariantKind::SmallStrain, Some(relation)) = (kind, of_small_strain(quantity)) {
         return relation;
     }
     match quantity {
@@ -95,9 +95,9 @@ fn of_every_field(quantity: Quantity, kind: &Invariants, is_static: bool) -> &'s
         }
         Quantity::MassDensity => &[RHO, EQUALS, Over(&[RHO0], &[Scalar("J")])],
         Quantity::StrainEnergy => match kind {
-            Invariants::Isotropic => &[Scalar("W"), EQUALS, Function("W", INVARIANTS)],
-            Invariants::Fibrous(_) => &[Scalar("W"), EQUALS, Function("W", OF_FIBRES)],
-            Invariants::SmallStrain => &[Scalar("W"), EQUALS, Function("W", SMALL)],
+            InvariantKind::Isotropic => &[Scalar("W"), EQUALS, Function("W", INVARIANTS)],
+            InvariantKind::Fibrous(_) => &[Scalar("W"), EQUALS, Function("W", OF_FIBRES)],
+            InvariantKind::SmallStrain => &[Scalar("W"), EQUALS, Function("W", SMALL)],
         },
         Quantity::FirstPiolaKirchhoff => {
             &[Tensor("P"), EQUALS, Partial(&Scalar("W"), &Tensor("F"))]

@@ -19,7 +19,7 @@ use super::name::{Along, Name};
 use super::reading::Reading;
 use super::small_strain;
 use mms_codegen::compile::Compiled;
-use mms_mechanics::invariant::Invariants;
+use mms_mechanics::invariant::InvariantKind;
 use mms_mechanics::tensor::{Tensor, dot};
 use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::{Expr, HALF, Rational};
@@ -42,7 +42,7 @@ pub(super) fn derive(
     let energy = Energy::read(reading, compiled, formulas, quantities);
     let fibres = Fibres::read(reading, compiled, formulas, quantities);
     let solid = match (&compiled.model.kind, quantities.dimension) {
-        (Invariants::SmallStrain, _) => {
+        (InvariantKind::SmallStrain, _) => {
             small_strain::derive(reading, compiled, quantities, &energy)
         }
         (_, 1) => line(reading, compiled, quantities, &energy, fibres.as_ref()),

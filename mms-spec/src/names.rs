@@ -73,11 +73,11 @@ pub fn is_identifier(text: &str) -> bool {
 }
 
 /// The meaning of a reserved name, or `None` if users may define it.
-pub fn reserved(name: &str, keeper: ReservingFile) -> Option<&'static str> {
+pub fn reserved(name: &str, file: ReservingFile) -> Option<&'static str> {
     let among = |names: &[(&str, &'static str)]| {
         names.iter().find(|(kept, _)| *kept == name).map(|(_, meaning)| *meaning)
     };
-    match keeper {
+    match file {
         _ if FUNCTIONS.contains(&name) => Some("a function"),
         ReservingFile::Field => among(COORDINATES),
         ReservingFile::Axisymmetric => among(AXISYMMETRIC),
@@ -88,7 +88,7 @@ pub fn reserved(name: &str, keeper: ReservingFile) -> Option<&'static str> {
 /// The names that one file has defined so far.
 #[derive(Clone)]
 pub(super) struct Names {
-    keeper: ReservingFile,
+    file: ReservingFile,
     defined: BTreeMap<String, Span>,
     /// The names of the quantities that the file defines.
     own: BTreeMap<String, Span>,
@@ -96,8 +96,8 @@ pub(super) struct Names {
 
 impl Names {
     /// A file without names.
-    pub fn new(keeper: ReservingFile) -> Self {
-        Names { keeper, defined: BTreeMap::new(), own: BTreeMap::new() }
+    pub fn new(file: ReservingFile) -> Self {
+        Names { file, defined: BTreeMap::new(), own: BTreeMap::new() }
     }
 
     /// Defines the quantities of a given field or a balance. Returns whether the names are allowed: otherwise the reason has
@@ -135,7 +135,7 @@ impl Names {
                 true
             }
             Some(diagnostic) => {
-                if reserved(&name.value, self.keeper).is_some() {
+                if reserved(&name.value, self.file).is_some() {
                     reader.refused.push(name.value.clone());
                 }
                 reader.report(diagnostic);
@@ -149,7 +149,7 @@ impl Names {
         if let Some(refusal) = malformed(name) {
             return Some(refusal);
         }
-        if let Some(meaning) = reserved(&name.value, self.keeper) {
+        if let Some(meaning) = reserved(&name.value, self.file) {
             return Some(
                 Diagnostic::error(name.span, format!("the name {shown} is reserved"))
                     .label(format!("means {meaning}"))

@@ -51,16 +51,16 @@ pub fn outcomes<B: JobRunner>(
     jobs: &[Job],
     store: &Store,
     threads: NonZero<usize>,
-    bench: &B,
+    runner: &B,
     watcher: &dyn Watcher,
 ) -> anyhow::Result<Vec<B::Result>> {
-    let work = Work { store, bench, watcher };
+    let work = Work { store, runner, watcher };
     side_by_side(jobs, threads, |job, wait| work.outcome(job, wait))
 }
 
 struct Work<'a, B> {
     store: &'a Store,
-    bench: &'a B,
+    runner: &'a B,
     watcher: &'a dyn Watcher,
 }
 
@@ -76,7 +76,7 @@ impl<B: JobRunner> Work<'_, B> {
             return Ok(Some(outcome));
         }
         let mut step = |step: usize, steps: usize| self.watcher.step(job, step, steps);
-        let outcome = self.bench.run(job, &mut step)?;
+        let outcome = self.runner.run(job, &mut step)?;
         self.store.save(&job.key, &outcome)?;
         self.watcher.done(job, outcome.as_ref());
         Ok(Some(outcome))

@@ -1,6 +1,6 @@
 //! The current frame: x is the independent variable, and X is found from it.
 
-use mms_mechanics::invariant::Invariants;
+use mms_mechanics::invariant::InvariantKind;
 use mms_spec::quantity::Quantity;
 
 use super::support::kernel::{Kernel, compiled, sample};
@@ -45,13 +45,16 @@ fn differences<K: Kernel>(at: &[f64], time: f64, step: f64) -> [[f64; 2]; 2] {
     let mut parts = Vec::new();
     if width > dimension {
         // At small strain the radius is in the reference configuration.
-        let radius =
-            if compiled(K::NAME).model.kind == Invariants::SmallStrain { at[0] } else { place[0] };
+        let radius = if compiled(K::NAME).model.kind == InvariantKind::SmallStrain {
+            at[0]
+        } else {
+            place[0]
+        };
         divergence = spreading(&K::quantity(Quantity::CauchyStress, time, at), radius).to_vec();
         parts.extend_from_slice(&divergence);
     }
     // At small strain the divergence of sigma is over X.
-    let is_small = compiled(K::NAME).model.kind == Invariants::SmallStrain;
+    let is_small = compiled(K::NAME).model.kind == InvariantKind::SmallStrain;
     for axis in 0..dimension {
         let beside = |sign: f64| {
             let mut shifted = place.clone();

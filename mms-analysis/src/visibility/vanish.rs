@@ -15,7 +15,7 @@
 use super::term::Term;
 use mms_codegen::compile::Compiled;
 use mms_mechanics::face;
-use mms_mechanics::invariant::Invariants;
+use mms_mechanics::invariant::InvariantKind;
 use mms_mechanics::kinematics::Route;
 use mms_mechanics::model::energy_with;
 use mms_mechanics::model::parameter_values;
@@ -51,7 +51,7 @@ fn quantity(compiled: &Compiled, quantity: Quantity) -> &[Expr] {
 
 /// lambda - mu = dP_11/dF_22 - dP_12/dF_12 + P_22 at F = I; a material with fibres has more than two moduli.
 fn moduli(graph: &mut Graph, compiled: &Compiled) -> Option<(Term, Vec<Expr>)> {
-    if matches!(compiled.model.kind, Invariants::Fibrous(_)) {
+    if matches!(compiled.model.kind, InvariantKind::Fibrous(_)) {
         return None;
     }
     let [stress, tangent] = at_rest(graph, &compiled.model);
@@ -115,7 +115,7 @@ fn explicit(
     let all: Vec<Expr> =
         (0..response.len()).flat_map(|k| by_axis.iter().map(move |column| column[k])).collect();
     let mut explicit = substitute(graph, &all, values);
-    if let (Some(radius), Invariants::Fibrous(_)) = (model.radius, &model.kind) {
+    if let (Some(radius), InvariantKind::Fibrous(_)) = (model.radius, &model.kind) {
         let stress = substitute(graph, response, values);
         for (k, whole) in around(graph, radius, &stress).into_iter().enumerate() {
             let slot = k * directions + 2;

@@ -22,7 +22,7 @@ use crate::bounds::enclosure::{Evaluation, Formulas};
 use crate::bounds::search::{Cell, Measure, largest};
 use crate::bounds::witness::Witness;
 use crate::compile::Compiled;
-use mms_mechanics::invariant::{Invariants, VOLUME};
+use mms_mechanics::invariant::{InvariantKind, VOLUME};
 use mms_mechanics::kinematics::Strain;
 use mms_mechanics::model::{Part, Written};
 use mms_mechanics::tensor::Tensor;
@@ -197,7 +197,9 @@ fn invariants(
     motion: &ChartMotion,
 ) -> SortedMap<Symbol, Expr> {
     let kind = match &compiled.model.kind {
-        Invariants::Fibrous(direction) => Invariants::Fibrous(chart.pull_back(graph, direction)),
+        InvariantKind::Fibrous(direction) => {
+            InvariantKind::Fibrous(chart.pull_back(graph, direction))
+        }
         other => other.clone(),
     };
     let gradient = motion.oriented.as_ref().unwrap_or(&motion.gradient);

@@ -321,7 +321,7 @@ impl Certificate {
         objections
             .extend(parts.filter_map(|(part, sign)| message::not_solid(compiled, *part, sign)));
         let [double, _] = &self.computed;
-        objections.extend(message::not_computed(compiled, "f64", &double.finding));
+        objections.extend(message::not_computed(compiled, "f64", &double.verdict));
         for (claim, finding) in &self.claims {
             match finding {
                 ClaimVerdict::Proved | ClaimVerdict::Enclosed(_) => {}

@@ -30,7 +30,7 @@ pub struct Comparison {
     /// The number of points where both were evaluated: [`POINTS`], or fewer if that takes too long.
     pub points: usize,
     /// The result.
-    pub finding: ClosedFormVerdict,
+    pub verdict: ClosedFormVerdict,
 }
 
 /// The result of comparing one closed form.
@@ -83,7 +83,7 @@ pub fn compare(compiled: &Compiled) -> Vec<Comparison> {
         let (points, finding) = finding(&program, &parameters, &all, index, check.quantity, &own);
         work.spend(part - own.left().min(part));
         let source = check.source.clone();
-        Comparison { quantity: check.quantity, source, span: check.span, points, finding }
+        Comparison { quantity: check.quantity, source, span: check.span, points, verdict: finding }
     };
     checks.map(compared).collect()
 }

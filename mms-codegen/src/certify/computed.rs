@@ -62,7 +62,7 @@ pub enum ComputedVerdict {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComputedProof {
     /// Whether the program computes its quantities.
-    pub finding: ComputedVerdict,
+    pub verdict: ComputedVerdict,
     /// The least number of right digits after the point of the angles of sines, cosines and tangents, and the place where it is
     /// least; `None` if there are no such angles, or if the number is not known.
     pub angles: Option<(f64, Witness)>,
@@ -73,7 +73,7 @@ pub struct ComputedProof {
 impl ComputedProof {
     /// The result if the program was not examined.
     pub const NOT_APPLICABLE: ComputedProof =
-        ComputedProof { finding: ComputedVerdict::NotApplicable, angles: None, cells: 0 };
+        ComputedProof { verdict: ComputedVerdict::NotApplicable, angles: None, cells: 0 };
 }
 
 /// Bounds the program of a field in `f64` and in `f32`, each with at most `operations` operations. `jacobian` is J with its
@@ -228,7 +228,7 @@ impl<'a> QuantityProgram<'a> {
         let angles = worst.filter(|_| is_told).map(|(error, cell)| {
             (-error.max(F::UNIT).log10(), Witness::at(chart, &farthest_corner(chart, &cell)).0)
         });
-        ComputedProof { finding, angles, cells: found.cells }
+        ComputedProof { verdict: finding, angles, cells: found.cells }
     }
 
     /// Bounds all values at a chart point, for any normal, with `known` bounds of some exact values.

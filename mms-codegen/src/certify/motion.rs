@@ -4,7 +4,7 @@
 use crate::bounds::chart::Chart;
 use crate::compile::Compiled;
 use mms_mechanics::Response;
-use mms_mechanics::invariant::{Invariants, SUPPLIED_VOLUME};
+use mms_mechanics::invariant::{InvariantKind, SUPPLIED_VOLUME};
 use mms_mechanics::kinematics::Strain;
 use mms_mechanics::tensor::Tensor;
 use mms_spec::quantity::Quantity;
@@ -59,7 +59,7 @@ impl ChartMotion {
         let stress = chart.pull_back(graph, &derived.responses[&Response::FirstPiolaKirchhoff]);
         // Rotations of the deformed and of the reference body then only rotate the stress, so that C in any basis determines
         // it.
-        let is_isotropic = compiled.model.kind == Invariants::Isotropic;
+        let is_isotropic = compiled.model.kind == InvariantKind::Isotropic;
         let stress = if is_isotropic { principal(graph, &stress, dimension) } else { stress };
         ChartMotion {
             dimension,
@@ -97,7 +97,7 @@ fn principal(graph: &mut Graph, stress: &[Expr], dimension: usize) -> Vec<Expr> 
     let gradient =
         Tensor::from_fn(dimension, |row, column| graph.symbol(Symbol::Gradient(row, column)));
     let jacobian =
-        Strain::new(graph, gradient, &Invariants::Isotropic, &Relations::default()).jacobian;
+        Strain::new(graph, gradient, &InvariantKind::Isotropic, &Relations::default()).jacobian;
     let values = without_volume(graph, jacobian);
     replace(graph, stress, &values)
 }
@@ -119,10 +119,10 @@ pub fn gradient(graph: &mut Graph, compiled: &Compiled) -> Vec<Expr> {
 fn strain(graph: &mut Graph, gradient: &[Expr]) -> Strain {
     let dimension = gradient.len().isqrt();
     let tensor = || Tensor::from_fn(dimension, |row, column| gradient[row * dimension + column]);
-    let plain = Strain::new(graph, tensor(), &Invariants::Isotropic, &Relations::default());
+    let plain = Strain::new(graph, tensor(), &InvariantKind::Isotropic, &Relations::default());
     let reduced = graph.attempt(|graph| {
         let relations = Relations::find(graph, gradient);
-        Strain::new(graph, tensor(), &Invariants::Isotropic, &relations)
+        Strain::new(graph, tensor(), &InvariantKind::Isotropic, &relations)
     });
     let length = |strain: &Strain| {
         graph.reachable(&[strain.right.components(), &[strain.jacobian]].concat()).len()

@@ -10,7 +10,7 @@ use super::Compiled;
 use crate::declared::elasticity::{curvatures, stiffness};
 use mms_mechanics::axisymmetric::poles;
 use mms_mechanics::extent::Region;
-use mms_mechanics::invariant::Invariants;
+use mms_mechanics::invariant::InvariantKind;
 use mms_mechanics::model::Model;
 use mms_program::Program;
 use mms_program::interpret::{Interpreter, Number as _, Point};
@@ -89,7 +89,7 @@ impl FastParameterCheck {
         let (model, field) = (&compiled.model, &compiled.field);
         let mut graph = compiled.graph.clone();
         graph.make_room();
-        let is_simple = model.rigid.is_none() && !matches!(model.kind, Invariants::Fibrous(_));
+        let is_simple = model.rigid.is_none() && !matches!(model.kind, InvariantKind::Fibrous(_));
         let outputs = is_simple.then(|| outputs(&mut graph, model))?;
         let mut exprs = outputs.values().flatten();
         // Expressions that change in time are judged when they are read.

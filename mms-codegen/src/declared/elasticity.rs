@@ -10,7 +10,7 @@ use super::material::Counterexample;
 use super::{Declared, digits};
 use crate::materials::shipped;
 use mms_mechanics::extent::Extent;
-use mms_mechanics::invariant::{INVARIANTS, Invariants};
+use mms_mechanics::invariant::{INVARIANTS, InvariantKind};
 use mms_mechanics::kinematics::Strain;
 use mms_mechanics::material::tangent;
 use mms_mechanics::model::Model;
@@ -87,7 +87,7 @@ impl Declared<'_> {
             }
             Fault::Growth(normal, axis, modulus) => {
                 let wave = match (&model.kind, axis) {
-                    (Invariants::Fibrous(_), _) => {
+                    (InvariantKind::Fibrous(_), _) => {
                         let normal: Vec<_> = normal.iter().map(i32::to_string).collect();
                         format!("a wave along ({}) has a negative modulus", normal.join(", "))
                     }
@@ -170,8 +170,8 @@ fn name(symbol: Symbol) -> &'static str {
 }
 
 /// Directions in a body, of any length: for an isotropic solid one is enough.
-fn normals(kind: &Invariants, dimension: usize) -> Vec<Vec<i32>> {
-    if !matches!(kind, Invariants::Fibrous(_)) {
+fn normals(kind: &InvariantKind, dimension: usize) -> Vec<Vec<i32>> {
+    if !matches!(kind, InvariantKind::Fibrous(_)) {
         return vec![(0..dimension).map(|axis| i32::from(axis == 0)).collect()];
     }
     let components = -2..=2;

@@ -6,7 +6,7 @@ use quote::{ToTokens as _, format_ident, quote};
 use super::{Emitter, RUNTIME, input};
 use mms_mechanics::Output;
 use mms_mechanics::Response;
-use mms_mechanics::invariant::Invariants;
+use mms_mechanics::invariant::InvariantKind;
 use mms_spec::quantity::Quantity;
 use mms_spec::{Body, Claim, Face};
 use mms_symbolic::expr::Symbol;
@@ -23,7 +23,7 @@ impl Emitter<'_> {
             },
             false => quote!(&gradients),
         };
-        let is_small = self.compiled.model.kind == Invariants::SmallStrain;
+        let is_small = self.compiled.model.kind == InvariantKind::SmallStrain;
         let small_strain = is_small.then(|| {
             quote! {
                 fn is_small_strain(&self) -> bool {

@@ -5,7 +5,7 @@ use quote::{format_ident, quote};
 
 use super::{Context, Emitter};
 use mms_mechanics::Response;
-use mms_mechanics::invariant::Invariants;
+use mms_mechanics::invariant::InvariantKind;
 use mms_mechanics::{Bound, Output};
 use mms_program::Stage;
 use mms_spec::foreign::{Foreign, blanked};
@@ -177,7 +177,7 @@ impl Emitter<'_> {
         let own: &[Stage] = &[Stage::Point, Stage::PointTime];
         let place = Context::at_points(if timed { quote!(self.field) } else { quote!(self) }, own);
         let kirchhoff = match self.compiled.model.kind {
-            Invariants::SmallStrain => {
+            InvariantKind::SmallStrain => {
                 " P F^T at X of the displacement gradient H, Pa, for an updated formulation: no stress at small strain."
             }
             _ => " Kirchhoff stress tau = P F^T at X of the displacement gradient H, Pa.",

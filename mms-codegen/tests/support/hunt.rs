@@ -157,7 +157,7 @@ impl Promise {
         let (exits, _) = branches::violations(graph, chart, compiled, Some(&motion), budget);
         let known = (motion.jacobian, bounds);
         let computed = computed::bound(graph, chart, compiled, known, OPERATIONS);
-        let [double, single] = computed.each_ref().map(|it| it.finding == ComputedVerdict::Proved);
+        let [double, single] = computed.each_ref().map(|it| it.verdict == ComputedVerdict::Proved);
         let is_fine = computed[0].angles.as_ref().is_none_or(|(digits, _)| *digits > 9.0);
         Promise { double, single, smooth: double && exits.is_empty() && is_fine }
     }

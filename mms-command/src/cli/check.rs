@@ -127,8 +127,8 @@ impl Check {
         path: &Foreign,
         compiled: &Arc<Compiled>,
     ) -> anyhow::Result<(CommandOutcome, CheckedFile)> {
-        let asked = CheckOptions { solve: self.solve, is_verbose: self.verbose };
-        let mut report = mms_check::check(path, compiled, asked);
+        let options = CheckOptions { solve: self.solve, is_verbose: self.verbose };
+        let mut report = mms_check::check(path, compiled, options);
         let has_body = !compiled.field.domain.body.is_nothing();
         let next = (!report.passes && has_body && !self.explain).then(|| {
             let options = [next::each("set", &self.set), self.variant.arguments()].concat();

@@ -90,9 +90,9 @@ pub fn after_search(
         return Some(run(choice));
     }
     let front = report.front();
-    let (name, value) = match report.plan.goal {
+    let (name, value) = match report.problem.goal {
         Goal::Error(_) => ("target-linf", front.last()?.error.clone().ok()?),
-        Goal::Cost(_) => ("budget-seconds", report.cost(front.first()?, report.plan.cost)),
+        Goal::Cost(_) => ("budget-seconds", report.cost(front.first()?, report.problem.cost)),
     };
     // Two digits, rounded up.
     let unit = 10f64.powf(value.log10().floor() - 1.0);

@@ -52,7 +52,7 @@ pub struct Observers<'a> {
     pub progress: OfRun<'a>,
     pub vtk: Option<Writer>,
     pub history: Option<History>,
-    pub keeper: Option<CheckpointWriter>,
+    pub checkpoints: Option<CheckpointWriter>,
     pub resumed: Option<StoredCheckpoint>,
     pub interrupted: Interrupted,
 }
@@ -69,14 +69,14 @@ impl Observers<'_> {
     }
 
     fn try_to_keep(&mut self, checkpoint: &dyn Checkpoint) -> anyhow::Result<()> {
-        let Some(keeper) = &mut self.keeper else { return Ok(()) };
+        let Some(checkpoints) = &mut self.checkpoints else { return Ok(()) };
         // First the history, so that it is never older than the checkpoint.
         self.history.as_ref().map_or(Ok(()), History::keep)?;
         let (states, mark) = (
             self.vtk.as_ref().map_or(&[][..], Writer::written),
             self.history.as_ref().map(History::mark),
         );
-        keeper.keep(checkpoint, states, mark)
+        checkpoints.keep(checkpoint, states, mark)
     }
 }
 
@@ -111,7 +111,8 @@ impl Observer for Observers<'_> {
     }
 
     fn keeps(&self, step: usize, _: usize) -> bool {
-        self.interrupted.is_set() || self.keeper.as_ref().is_some_and(|keeper| keeper.wants(step))
+        self.interrupted.is_set()
+            || self.checkpoints.as_ref().is_some_and(|checkpoints| checkpoints.wants(step))
     }
 
     fn keep(&mut self, checkpoint: &dyn Checkpoint) -> Result<(), String> {
@@ -119,8 +120,10 @@ impl Observer for Observers<'_> {
         if !self.interrupted.is_set() {
             return Ok(());
         }
-        Err(match &self.keeper {
-            Some(keeper) => format!("interrupted; `{}` continues from here", keeper.resuming()),
+        Err(match &self.checkpoints {
+            Some(checkpoints) => {
+                format!("interrupted; `{}` continues from here", checkpoints.resuming())
+            }
             None => "interrupted, without a checkpoint (`--checkpoint FILE` keeps one)".into(),
         })
     }

@@ -210,12 +210,19 @@ impl Run {
             step => History::from(path, step, mark),
         });
         let history = history.transpose()?;
-        let keeper = self.checkpoint.as_deref();
-        let keeper = keeper
+        let checkpoints = self.checkpoint.as_deref();
+        let checkpoints = checkpoints
             .map(|path| CheckpointWriter::new(path, self.every as usize, head))
             .transpose()?;
         let interrupted = Interrupted::listen()?;
-        Ok(Observers { progress: progress.of(cells), vtk, history, keeper, resumed, interrupted })
+        Ok(Observers {
+            progress: progress.of(cells),
+            vtk,
+            history,
+            checkpoints,
+            resumed,
+            interrupted,
+        })
     }
 
     /// The identity of this run: everything that its numbers depend on.

@@ -96,19 +96,19 @@ impl Tradeoff {
         input.validate_settings(&self.set)?;
         let folder = super::output_folder(self.output.as_deref(), input.name.raw())?;
         self.figure.validate()?;
-        let mut bench =
+        let mut runner =
             SettingRunner { trials: &mut trials, field, set: &self.set, motion: &self.motion };
         let target = self.target_linf.map(Goal::Error);
         let goal = target.or_else(|| self.budget_seconds.map(Goal::Cost));
         // Without a goal, any error is accepted until the error of the default is known.
-        let mut plan = self.plan(&input, goal.unwrap_or(Goal::Error(f64::INFINITY)))?;
+        let mut problem = self.problem(&input, goal.unwrap_or(Goal::Error(f64::INFINITY)))?;
         if goal.is_none() {
-            plan.goal = bench.usual(&plan)?;
+            problem.goal = runner.usual(&problem)?;
         }
-        let found = Search::run(&mut bench, plan)?;
+        let found = Search::run(&mut runner, problem)?;
         trials.finish();
         let command = |setting: &Setting, cells: usize| self.command(field, setting, cells);
-        let mut report = self.report(&input, plan, found, &command)?;
+        let mut report = self.report(&input, problem, found, &command)?;
         let run = |it: &Trial| {
             let words = arguments(field, &self.set, &self.motion, &it.setting, it.cells);
             next::command(std::iter::once("run".to_owned()).chain(words))
@@ -136,7 +136,7 @@ impl Tradeoff {
     fn report<'a>(
         &self,
         input: &Input,
-        plan: SearchProblem,
+        problem: SearchProblem,
         found: TradeoffResult,
         command: &'a dyn Fn(&Setting, usize) -> String,
     ) -> anyhow::Result<Report<'a>> {
@@ -148,7 +148,7 @@ impl Tradeoff {
             field,
             title,
             unit,
-            plan,
+            problem,
             found,
             all: self.all,
             command,
@@ -157,7 +157,7 @@ impl Tradeoff {
         })
     }
 
-    fn plan(&self, input: &Input, goal: Goal) -> anyhow::Result<SearchProblem> {
+    fn problem(&self, input: &Input, goal: Goal) -> anyhow::Result<SearchProblem> {
         let scene = input.scene(&self.set, |code| code.double)?;
         let dimension = input.compiled.field.dimension;
         let grain = scene.edges().map_or(1, |edges| grain(&edges));
@@ -173,12 +173,12 @@ impl Tradeoff {
         for field in Page::FIELDS {
             let input = self.input(field)?;
             for target in Page::TARGETS {
-                let plan = self.plan(&input, Goal::Error(target))?;
-                let mut bench =
+                let problem = self.problem(&input, Goal::Error(target))?;
+                let mut runner =
                     SettingRunner { trials, field, set: &self.set, motion: &self.motion };
-                let found = Search::run(&mut bench, plan)?;
+                let found = Search::run(&mut runner, problem)?;
                 let command = |setting: &Setting, cells: usize| self.command(field, setting, cells);
-                page.add(&self.report(&input, plan, found, &command)?);
+                page.add(&self.report(&input, problem, found, &command)?);
             }
         }
         trials.finish();
@@ -239,14 +239,14 @@ impl Runner for SettingRunner<'_> {
 
 impl SettingRunner<'_> {
     /// The error of a run without options, as a goal.
-    fn usual(&mut self, plan: &SearchProblem) -> anyhow::Result<Goal> {
-        let (setting, cells) = (Setting::default(), usual_cells(plan.dimension));
-        let work = plan.work(&setting, cells);
-        if work > plan.most_work {
+    fn usual(&mut self, problem: &SearchProblem) -> anyhow::Result<Goal> {
+        let (setting, cells) = (Setting::default(), usual_cells(problem.dimension));
+        let work = problem.work(&setting, cells);
+        if work > problem.most_work {
             bail!(
                 "`--most-work {:e}`: the default method, whose error is the target, is predicted to take {work:.1e}; \
                  raise it, or give `--target-linf` or `--budget-seconds`",
-                plan.most_work
+                problem.most_work
             );
         }
         let trial = self.run(&setting, cells)?;

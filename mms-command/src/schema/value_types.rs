@@ -43,8 +43,8 @@ fn required(keys: &[Key]) -> Vec<&'static str> {
     keys.iter().filter(|key| key.required).map(|key| key.name).collect()
 }
 
-fn value(holds: &ValueType) -> Value {
-    match holds {
+fn value(value_type: &ValueType) -> Value {
+    match value_type {
         ValueType::Text => json!({ "type": "string" }),
         ValueType::Flag => json!({ "type": "boolean" }),
         ValueType::Dimension => json!({ "enum": [1, 2, 3] }),
@@ -63,10 +63,10 @@ fn value(holds: &ValueType) -> Value {
         ValueType::Formulas(length) => formulas(*length),
         ValueType::Table(keys) => table(keys),
         ValueType::Tables(keys) => json!({ "type": "array", "items": table(keys) }),
-        ValueType::Names(keeper, holds) => json!({
+        ValueType::Names(file, of_each) => json!({
             "type": "object",
-            "propertyNames": name(*keeper),
-            "additionalProperties": value(holds),
+            "propertyNames": name(*file),
+            "additionalProperties": value(of_each),
         }),
         ValueType::Material(keys) => json!({
             "type": "object",
@@ -135,8 +135,8 @@ fn model() -> Value {
 }
 
 /// The names that a file may define.
-fn name(keeper: ReservingFile) -> Value {
-    let others = match keeper {
+fn name(file: ReservingFile) -> Value {
+    let others = match file {
         ReservingFile::Field => &[],
         ReservingFile::Axisymmetric => AXISYMMETRIC,
         ReservingFile::Material => INVARIANTS,

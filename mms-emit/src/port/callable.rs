@@ -3,7 +3,7 @@
 use mms_codegen::compile::Compiled;
 use mms_mechanics::Response;
 use mms_mechanics::boundary::Datum;
-use mms_mechanics::invariant::Invariants;
+use mms_mechanics::invariant::InvariantKind;
 use mms_mechanics::{Bound, Output, Program};
 use mms_program::Op;
 use mms_spec::Space;
@@ -237,10 +237,10 @@ fn response(response: Response, compiled: &Compiled) -> Callable {
             "material_kirchhoff_stress",
             "tau",
             match compiled.model.kind {
-                Invariants::SmallStrain => {
+                InvariantKind::SmallStrain => {
                     "P F^T of the material at X, of the displacement gradient H, for an updated formulation: no stress at small strain."
                 }
-                Invariants::Isotropic | Invariants::Fibrous(_) => {
+                InvariantKind::Isotropic | InvariantKind::Fibrous(_) => {
                     "Kirchhoff stress tau = P F^T of the material at X, of the displacement gradient H."
                 }
             },

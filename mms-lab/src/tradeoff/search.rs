@@ -196,25 +196,25 @@ impl Line {
     }
 
     /// The grid that just meets a goal; `None` if no grid does.
-    pub fn meet(&self, plan: &SearchProblem) -> Option<Prediction> {
-        let growth = plan.growth();
-        let ratio = match (plan.goal, self.order) {
+    pub fn meet(&self, problem: &SearchProblem) -> Option<Prediction> {
+        let growth = problem.growth();
+        let ratio = match (problem.goal, self.order) {
             (Goal::Error(target), Some(order)) => {
-                let coarsest = plan.grain as f64 / self.cells;
+                let coarsest = problem.grain as f64 / self.cells;
                 (self.error / target).powf(1.0 / order).max(coarsest)
             }
             // Without an order, every grid is predicted to have the same error, so coarser grids are not searched.
             (Goal::Error(target), None) => (self.error <= target).then_some(1.0)?,
             (Goal::Cost(budget), _) => (budget / self.cost).powf(1.0 / growth),
         };
-        Some(self.at(ratio, plan.dimension, growth))
+        Some(self.at(ratio, problem.dimension, growth))
     }
 }
 
 /// A search.
 pub struct Search<'a> {
     runner: &'a mut dyn Runner,
-    plan: SearchProblem,
+    problem: SearchProblem,
     /// All runs, in the order in which they were made.
     pub trials: Vec<Trial>,
 }
@@ -237,8 +237,11 @@ impl<'a> Search<'a> {
     ///
     /// # Errors
     /// A run that could not be tried.
-    pub fn run(runner: &'a mut dyn Runner, plan: SearchProblem) -> anyhow::Result<TradeoffResult> {
-        let mut search = Search { runner, plan, trials: Vec::new() };
+    pub fn run(
+        runner: &'a mut dyn Runner,
+        problem: SearchProblem,
+    ) -> anyhow::Result<TradeoffResult> {
+        let mut search = Search { runner, problem, trials: Vec::new() };
         let mut candidates = search.screen()?;
         let mut tuned = Vec::new();
         for candidate in &candidates {
@@ -252,14 +255,14 @@ impl<'a> Search<'a> {
             Some(_) => None,
             None => search.best_prediction(),
         };
-        let default = search.line(&Setting::default()).and_then(|line| line.meet(&plan));
+        let default = search.line(&Setting::default()).and_then(|line| line.meet(&problem));
         Ok(TradeoffResult { choice: search.choice(), predicted, default, trials: search.trials })
     }
 
     /// Makes a run that has not been made, unless its predicted work is too large.
     fn trial(&mut self, setting: &Setting, cells: usize) -> anyhow::Result<()> {
         let same = |trial: &Trial| trial.setting == *setting && trial.cells == cells;
-        if !self.trials.iter().any(same) && self.work(setting, cells) <= self.plan.most_work {
+        if !self.trials.iter().any(same) && self.work(setting, cells) <= self.problem.most_work {
             let trial = self.runner.run(setting, cells)?;
             self.trials.push(trial);
         }
@@ -271,22 +274,22 @@ impl<'a> Search<'a> {
         match self.finished(setting).last() {
             Some(run) => {
                 let ratio = cells as f64 / run.cells as f64;
-                run.particle_steps() * ratio.powi(self.plan.dimension as i32 + 1)
+                run.particle_steps() * ratio.powi(self.problem.dimension as i32 + 1)
             }
-            None => self.plan.work(setting, cells),
+            None => self.problem.work(setting, cells),
         }
     }
 
     /// The cost of a run.
     fn cost(&self, trial: &Trial) -> f64 {
-        cost(&self.trials, trial, self.plan.cost)
+        cost(&self.trials, trial, self.problem.cost)
     }
 
     /// The settings that are worth tuning, the best first.
     fn screen(&mut self) -> anyhow::Result<Vec<Setting>> {
         let mut predicted = Vec::new();
         for kind in Setting::kinds() {
-            for cells in self.plan.screen() {
+            for cells in self.problem.screen() {
                 self.trial(&kind, cells)?;
             }
         }
@@ -302,7 +305,7 @@ impl<'a> Search<'a> {
 
     /// The best settings around one: in the best precision and form, and in the default precision and form.
     fn tune(&mut self, start: Setting) -> anyhow::Result<Vec<Setting>> {
-        let [coarse, fine] = self.plan.screen();
+        let [coarse, fine] = self.problem.screen();
         let mut best = start;
         for round in 0..2 {
             let before = best;
@@ -397,8 +400,8 @@ impl<'a> Search<'a> {
 
     /// The distance of a power law from the goal: the cost that meets an error, or the error that meets a cost.
     fn loss_of_line(&self, line: &Line) -> Option<f64> {
-        let met = line.meet(&self.plan)?;
-        Some(match self.plan.goal {
+        let met = line.meet(&self.problem)?;
+        Some(match self.problem.goal {
             Goal::Error(_) => met.cost,
             Goal::Cost(_) => met.error,
         })
@@ -421,7 +424,7 @@ impl<'a> Search<'a> {
             let best = best.context("there are candidates")?;
             let predicted = loss(&best);
             let found =
-                self.choice().map(|at| &self.trials[at]).map(|trial| match self.plan.goal {
+                self.choice().map(|at| &self.trials[at]).map(|trial| match self.problem.goal {
                     Goal::Error(_) => self.cost(trial),
                     Goal::Cost(_) => trial.error.clone().unwrap_or(f64::INFINITY),
                 });
@@ -458,14 +461,14 @@ impl<'a> Search<'a> {
     /// The next grid for a setting; `None` if the goal is met with little to spare, or cannot be met.
     fn next(&self, setting: &Setting) -> Option<usize> {
         let line = self.line_near(setting)?;
-        let met = line.meet(&self.plan)?;
+        let met = line.meet(&self.problem)?;
         let own = self.trials.iter().filter(|trial| trial.setting == *setting);
         let (good, bad): (Vec<&Trial>, Vec<&Trial>) = own.partition(|trial| self.meets(trial));
         let [good, bad] =
             [good, bad].map(|runs| runs.into_iter().map(|it| it.cells).collect::<Vec<_>>());
-        let grain = self.plan.grain;
+        let grain = self.problem.grain;
         // The grid must be between the grids known to be too coarse and too fine.
-        let (low, high) = match self.plan.goal {
+        let (low, high) = match self.problem.goal {
             Goal::Error(_) => {
                 let high = good.iter().copied().min();
                 (bad.into_iter().filter(|&it| high.is_none_or(|high| it < high)).max(), high)
@@ -476,10 +479,10 @@ impl<'a> Search<'a> {
             }
         };
         // A grid that is predicted to meet the goal exactly often misses it slightly.
-        let cells = match self.plan.goal {
-            Goal::Error(_) => self.plan.round_up_to_grain(met.cells * 1.01),
+        let cells = match self.problem.goal {
+            Goal::Error(_) => self.problem.round_up_to_grain(met.cells * 1.01),
             Goal::Cost(_) => {
-                self.plan.round_up_to_grain(met.cells * 0.99).saturating_sub(grain).max(grain)
+                self.problem.round_up_to_grain(met.cells * 0.99).saturating_sub(grain).max(grain)
             }
         };
         let least = low.map_or(grain, |low| low + grain);
@@ -489,17 +492,17 @@ impl<'a> Search<'a> {
             return None;
         }
         let cells = cells.clamp(least, most);
-        let spare = match (self.plan.goal, low, high) {
+        let spare = match (self.problem.goal, low, high) {
             (Goal::Error(_), _, Some(high)) => high as f64 / cells as f64,
             (Goal::Cost(_), Some(low), _) => cells as f64 / low as f64,
             _ => f64::INFINITY,
         };
-        (spare > 1.04 && self.work(setting, cells) <= self.plan.most_work).then_some(cells)
+        (spare > 1.04 && self.work(setting, cells) <= self.problem.most_work).then_some(cells)
     }
 
     /// The setting's power law through the run that is nearest to the goal.
     fn line_near(&self, setting: &Setting) -> Option<Line> {
-        let distance = |line: &Line| match self.plan.goal {
+        let distance = |line: &Line| match self.problem.goal {
             Goal::Error(target) => (line.error / target).ln().abs(),
             Goal::Cost(budget) => (line.cost / budget).ln().abs(),
         };
@@ -511,7 +514,7 @@ impl<'a> Search<'a> {
     /// Whether a run meets the goal.
     fn meets(&self, trial: &Trial) -> bool {
         let Ok(error) = trial.error else { return false };
-        match self.plan.goal {
+        match self.problem.goal {
             Goal::Error(target) => error <= target,
             Goal::Cost(budget) => self.cost(trial) <= budget,
         }
@@ -519,7 +522,7 @@ impl<'a> Search<'a> {
 
     /// The best run that meets the goal; the first of equal ones.
     fn choice(&self) -> Option<usize> {
-        let loss = |at: &usize| match (self.plan.goal, &self.trials[*at].error) {
+        let loss = |at: &usize| match (self.problem.goal, &self.trials[*at].error) {
             (Goal::Error(_), _) => self.cost(&self.trials[*at]),
             (_, Ok(error)) => *error,
             (_, Err(_)) => f64::INFINITY,
@@ -532,7 +535,7 @@ impl<'a> Search<'a> {
     fn surround(&mut self) -> anyhow::Result<()> {
         if let Some(choice) = self.choice().map(|at| self.trials[at].clone()) {
             for part in [2f64.sqrt(), 2.0] {
-                let cells = self.plan.round_up_to_grain(choice.cells as f64 / part);
+                let cells = self.problem.round_up_to_grain(choice.cells as f64 / part);
                 self.trial(&choice.setting, cells)?;
             }
         }
@@ -557,7 +560,7 @@ impl<'a> Search<'a> {
             // A finer run has stopped: its power law has ended.
             let stopped = |trial: &Trial| trial.error.is_err() && trial.cells as f64 > line.cells;
             let has_ended = self.trials.iter().any(|trial| trial.setting == it && stopped(trial));
-            let met = line.meet(&self.plan).filter(|_| !has_ended)?;
+            let met = line.meet(&self.problem).filter(|_| !has_ended)?;
             Some((self.loss_of_line(&line)?, it, met))
         });
         let best = lines.min_by(|a, b| a.0.total_cmp(&b.0));

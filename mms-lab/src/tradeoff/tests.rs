@@ -30,16 +30,16 @@ impl<E: Fn(&Setting, f64) -> Result<f64, String>> Runner for Known<E> {
     }
 }
 
-fn plan(goal: Goal, cost: Cost) -> SearchProblem {
+fn problem(goal: Goal, cost: Cost) -> SearchProblem {
     SearchProblem { dimension: 1, grain: 1, goal, cost, most_work: 1e8, unit_work: 2.0 }
 }
 
 fn search(
-    plan: SearchProblem,
+    problem: SearchProblem,
     error: impl Fn(&Setting, f64) -> Result<f64, String>,
 ) -> (TradeoffResult, usize) {
     let mut known = Known { error, runs: 0 };
-    let found = Search::run(&mut known, plan).unwrap();
+    let found = Search::run(&mut known, problem).unwrap();
     (found, known.runs)
 }
 
@@ -65,7 +65,7 @@ fn choice(found: &TradeoffResult) -> &Trial {
 fn the_cheapest_setting_meets_the_target_with_little_to_spare() {
     for cost in [Cost::ParticleSteps, Cost::Seconds] {
         for target in [1e-3, 1e-4, 1e-6] {
-            let (found, runs) = search(plan(Goal::Error(target), cost), smooth);
+            let (found, runs) = search(problem(Goal::Error(target), cost), smooth);
             let best = choice(&found);
             assert_eq!(best.setting.shape, ShapeName::Cpdi);
             assert_eq!((best.setting.courant, best.setting.particles), (0.7, 3), "{best:?}");
@@ -82,7 +82,7 @@ fn the_cheapest_setting_meets_the_target_with_little_to_spare() {
 #[test]
 fn a_budget_is_kept_and_used() {
     for budget in [1e-3, 0.1, 1.0] {
-        let (found, _) = search(plan(Goal::Cost(budget), Cost::Seconds), smooth);
+        let (found, _) = search(problem(Goal::Cost(budget), Cost::Seconds), smooth);
         let best = choice(&found);
         assert_eq!(best.setting.shape, ShapeName::Cpdi);
         let spent = super::search::cost(&found.trials, best, Cost::Seconds);
@@ -93,8 +93,8 @@ fn a_budget_is_kept_and_used() {
 /// Memory does not grow with the steps: more, smaller ones are better, as long as they reduce the error.
 #[test]
 fn what_is_to_be_small_decides() {
-    let memory = search(plan(Goal::Error(1e-5), Cost::Memory), smooth).0;
-    let work = search(plan(Goal::Error(1e-5), Cost::ParticleSteps), smooth).0;
+    let memory = search(problem(Goal::Error(1e-5), Cost::Memory), smooth).0;
+    let work = search(problem(Goal::Error(1e-5), Cost::ParticleSteps), smooth).0;
     assert!(choice(&memory).memory < choice(&work).memory);
     assert!(choice(&memory).particle_steps() > choice(&work).particle_steps());
 }
@@ -111,16 +111,17 @@ fn round_off_that_shows_late_sends_the_search_back() {
             if setting.arithmetic.precision == Precision::F32 { error / 1.5 } else { error }
         })
     };
-    let (coarse, _) = search(plan(Goal::Error(1e-3), Cost::ParticleSteps), cheap);
+    let (coarse, _) = search(problem(Goal::Error(1e-3), Cost::ParticleSteps), cheap);
     assert_eq!(choice(&coarse).setting.arithmetic.precision, Precision::F32);
-    let (fine, _) = search(plan(Goal::Error(1e-6), Cost::ParticleSteps), cheap);
+    let (fine, _) = search(problem(Goal::Error(1e-6), Cost::ParticleSteps), cheap);
     assert_eq!(choice(&fine).setting.arithmetic.precision, Precision::F64);
     assert!(choice(&fine).error.clone().unwrap() <= 1e-6);
 }
 
 #[test]
 fn what_is_out_of_reach_is_predicted_and_not_run() {
-    let limited = SearchProblem { most_work: 1e6, ..plan(Goal::Error(1e-7), Cost::ParticleSteps) };
+    let limited =
+        SearchProblem { most_work: 1e6, ..problem(Goal::Error(1e-7), Cost::ParticleSteps) };
     let (found, _) = search(limited, smooth);
     assert!(found.choice.is_none());
     let (setting, prediction) = found.predicted.expect("a prediction");
@@ -133,7 +134,8 @@ fn what_is_out_of_reach_is_predicted_and_not_run() {
 #[test]
 fn no_run_takes_more_than_it_may() {
     for (most_work, is_run) in [(1.0, false), (2e4, true)] {
-        let limited = SearchProblem { most_work, ..plan(Goal::Error(1e-2), Cost::ParticleSteps) };
+        let limited =
+            SearchProblem { most_work, ..problem(Goal::Error(1e-2), Cost::ParticleSteps) };
         let (found, _) = search(limited, smooth);
         assert_eq!(!found.trials.is_empty(), is_run);
         assert!(found.trials.iter().all(|trial| trial.particle_steps() <= 1.01 * most_work));
@@ -143,7 +145,7 @@ fn no_run_takes_more_than_it_may() {
 /// A grid has at least one cell, for any error.
 #[test]
 fn an_error_of_nothing_is_met_on_the_coarsest_grid() {
-    let (found, _) = search(plan(Goal::Error(1e-3), Cost::ParticleSteps), |_, _| Ok(0.0));
+    let (found, _) = search(problem(Goal::Error(1e-3), Cost::ParticleSteps), |_, _| Ok(0.0));
     assert_eq!(choice(&found).cells, 1);
     let default = found.default.expect("a prediction");
     assert!((default.cells, default.error) == (1.0, 0.0) && default.work > 0.0, "{default:?}");
@@ -151,10 +153,10 @@ fn an_error_of_nothing_is_met_on_the_coarsest_grid() {
 
 #[test]
 fn where_nothing_converges_there_is_no_choice_and_no_prediction() {
-    let (found, _) = search(plan(Goal::Error(1e-6), Cost::ParticleSteps), |_, _| Ok(0.1));
+    let (found, _) = search(problem(Goal::Error(1e-6), Cost::ParticleSteps), |_, _| Ok(0.1));
     assert_eq!((found.choice, found.predicted), (None, None));
     let (found, runs) =
-        search(plan(Goal::Error(1e-6), Cost::Seconds), |_, _| Err("stopped".into()));
+        search(problem(Goal::Error(1e-6), Cost::Seconds), |_, _| Err("stopped".into()));
     assert_eq!((found.choice, found.predicted, found.default), (None, None, None));
     assert_eq!(runs, 2 * Setting::kinds().len());
 }
@@ -162,7 +164,7 @@ fn where_nothing_converges_there_is_no_choice_and_no_prediction() {
 /// If the edges of a body are as 3 to 1, numbers of cells are multiples of 3.
 #[test]
 fn numbers_of_cells_divide_the_edges() {
-    let grained = SearchProblem { grain: 3, ..plan(Goal::Error(1e-4), Cost::ParticleSteps) };
+    let grained = SearchProblem { grain: 3, ..problem(Goal::Error(1e-4), Cost::ParticleSteps) };
     let (found, _) = search(grained, smooth);
     assert!(found.choice.is_some());
     assert!(found.trials.iter().all(|trial| trial.cells % 3 == 0));

@@ -1,7 +1,7 @@
 //! The density of a material in a field's terms: its arguments, the invariants, the fibres.
 
 use super::Reader;
-use crate::invariant::{INVARIANTS, Invariants, VOLUME};
+use crate::invariant::{INVARIANTS, InvariantKind, VOLUME};
 use crate::resolve::Scope;
 use mms_spec::diagnostic::Diagnostic;
 use mms_spec::foreign::Foreign;
@@ -211,7 +211,7 @@ impl Reader<'_> {
         field: &FieldSpec,
         material: &MaterialSpec,
         fibre: Option<&[Expr]>,
-    ) -> Option<Invariants> {
+    ) -> Option<InvariantKind> {
         let small = material.small_strain();
         let large = material.first_use(&["I1", "I2", "I3", "J", "I4"]);
         match (small, large) {
@@ -234,9 +234,9 @@ impl Reader<'_> {
                             .help("remove this key, or write W in I1, I2, I3, I4 and J"),
                     );
                 }
-                Some(Invariants::SmallStrain)
+                Some(InvariantKind::SmallStrain)
             }
-            (None, _) if !material.has_fibres() => Some(Invariants::Isotropic),
+            (None, _) if !material.has_fibres() => Some(InvariantKind::Isotropic),
             (None, _) => {
                 if field.material.fibre.is_none() && !field.incomplete {
                     let model = &field.material.model;
@@ -250,7 +250,7 @@ impl Reader<'_> {
                             ),
                     );
                 }
-                fibre.map(|fibre| Invariants::Fibrous(fibre[..self.space.rows()].to_vec()))
+                fibre.map(|fibre| InvariantKind::Fibrous(fibre[..self.space.rows()].to_vec()))
             }
         }
     }

@@ -30,7 +30,7 @@ pub struct Report<'a> {
     /// The unit of the displacement, if the field states units.
     pub unit: Option<String>,
     /// The plan of the search.
-    pub plan: SearchProblem,
+    pub problem: SearchProblem,
     /// The runs and predictions of the search.
     pub found: TradeoffResult,
     /// Whether all runs are shown, or only runs on the front, runs of the default and runs that stopped.
@@ -64,7 +64,7 @@ impl Report<'_> {
     /// Cost and error of a run that has both.
     fn point(&self, trial: &Trial) -> Option<(f64, f64)> {
         let error = trial.error.clone().ok()?;
-        let cost = self.cost(trial, self.plan.cost);
+        let cost = self.cost(trial, self.problem.cost);
         (cost > 0.0).then_some((cost, error))
     }
 
@@ -124,8 +124,8 @@ impl Report<'_> {
     /// The ratio of the cost of the default method to the cost of the choice, by their power laws.
     pub fn gain(&self) -> Option<f64> {
         let (default, choice) = (self.found.default?, self.choice()?);
-        match self.plan.goal {
-            Goal::Error(_) => Some(default.cost / self.cost(choice, self.plan.cost)),
+        match self.problem.goal {
+            Goal::Error(_) => Some(default.cost / self.cost(choice, self.problem.cost)),
             Goal::Cost(_) => Some(default.error / choice.error.clone().ok()?),
         }
     }
@@ -197,12 +197,12 @@ impl Report<'_> {
 
     /// The recommendation in sentences.
     pub fn advice(&self) -> String {
-        let measure = self.plan.cost;
+        let measure = self.problem.cost;
         let mut sentences = Vec::new();
-        match (self.choice(), self.plan.goal) {
+        match (self.choice(), self.problem.goal) {
             _ if self.trials().is_empty() => sentences.push(format!(
                 "No run was made: each is predicted to take more than {:.1e} particle-steps; raise `--most-work`.",
-                self.plan.most_work
+                self.problem.most_work
             )),
             (Some(trial), goal) => {
                 let error = trial.error.as_ref().map_or(f64::INFINITY, |error| *error);
@@ -265,11 +265,11 @@ impl Report<'_> {
             (Some(gain), Some(default)) => (gain, default),
             _ => return format!("The default, {setting}, does not reach it: {}.", self.why_not()),
         };
-        match self.plan.goal {
+        match self.problem.goal {
             Goal::Error(_) => format!(
                 "The default, {setting}, takes {} {} for that, on about {:.0} cells.",
                 factor(gain),
-                self.plan.cost.verb(),
+                self.problem.cost.verb(),
                 default.cells
             ),
             Goal::Cost(_) => {
@@ -299,7 +299,7 @@ impl Report<'_> {
             Some((setting, it)) => format!(
                 "{setting} is predicted to get there on {:.0} cells in {:.1e} particle-steps, where runs of more \
                  than {:.1e} are left out: raise `--most-work`",
-                it.cells, it.work, self.plan.most_work
+                it.cells, it.work, self.problem.most_work
             ),
             None => "no setting is predicted to get there: errors no longer shrink with the cells, or runs stop".into(),
         };
@@ -343,11 +343,11 @@ impl Shown for Report<'_> {
             let on_front = front.iter().any(|other| std::ptr::eq(*other, trial));
             self.run(trial, on_front)
         });
-        let (target, budget) = match self.plan.goal {
+        let (target, budget) = match self.problem.goal {
             Goal::Error(target) => (Some(target), None),
             Goal::Cost(budget) => (None, Some(budget)),
         };
-        let cost = self.plan.cost;
+        let cost = self.problem.cost;
         let prediction = |setting: &Setting, it: &Prediction| documents::Prediction {
             setting: setting.to_string(),
             cells: it.cells,

@@ -63,7 +63,7 @@ impl Page {
 }
 
 fn line(report: &Report) -> String {
-    let Goal::Error(target) = report.plan.goal else { return String::new() };
+    let Goal::Error(target) = report.problem.goal else { return String::new() };
     let Some(trial) = report.choice() else {
         return format!("| {target:e} | not reached: {} | | | | | | |\n", report.unreached(target));
     };

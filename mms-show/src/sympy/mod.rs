@@ -9,7 +9,7 @@ mod python;
 
 use mms_codegen::compile::Compiled;
 use mms_mechanics::Output;
-use mms_mechanics::invariant::Invariants;
+use mms_mechanics::invariant::InvariantKind;
 use mms_mechanics::sample::{Sample, samples};
 use mms_program::interpret::{Interpreter, Point};
 use mms_spec::foreign::{Foreign, blanked};
@@ -46,7 +46,7 @@ pub fn script(compiled: &Compiled) -> Result<String, Undefined> {
         text.push_str(include_str!("rigid.py"));
         text.push_str("\n\n");
     }
-    let is_small = if compiled.model.kind == Invariants::SmallStrain { "True" } else { "False" };
+    let is_small = if compiled.model.kind == InvariantKind::SmallStrain { "True" } else { "False" };
     text.push_str(&format!("SMALL_STRAIN = {is_small}\n"));
     let fluxes = compiled.model.own.keys().filter(|own| own.part == Part::NormalFlux);
     let fluxes: Vec<_> = fluxes.map(|own| format!("\"{}\"", own.name)).collect();

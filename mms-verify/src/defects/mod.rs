@@ -5,7 +5,7 @@
 //! `--all-rows`. First the same rows are run without a defect: an unexpected verdict ends the command. Then each row must catch
 //! every defect that it lists. If all rows were run with all defects, each row must also catch a defect that at most six rows
 //! catch, or have a `witness`: a property that no other row tests. Results are kept in a folder of their own in the store.
-//! Beside the verdicts, plausibility checks inspect each run as people do ([`pictures`](mms_lab::pictures)).
+//! Beside the verdicts, plausibility checks inspect each run as people do ([`plausibility`](mms_lab::plausibility)).
 
 mod visual;
 
@@ -162,9 +162,9 @@ impl DefectRuns<'_> {
             Some(Defect::Compiler(_)) => interpreted,
             _ => find,
         });
-        let bench = VisualInspection { fields };
-        let _made = ActiveDefect::new(defect);
-        let all = outcomes(&plan.jobs, &self.store, self.threads, &bench, self.watcher)?;
+        let runner = VisualInspection { fields };
+        let _active = ActiveDefect::new(defect);
+        let all = outcomes(&plan.jobs, &self.store, self.threads, &runner, self.watcher)?;
         let shown = rows.iter().zip(&plan.levels).map(|(row, levels)| {
             let levels: Vec<&Watched> = levels.iter().map(|&at| &all[at]).collect();
             let outcomes: Vec<SolverOutcome> =

@@ -58,13 +58,13 @@ impl Verify {
         let mut showings = Vec::new();
         for &defect in &defects {
             let shown = stage.run_rows(Some(defect), &chosen(&defect))?;
-            let looks = shown.iter().fold(Objections::default(), |looks, it| {
+            let objections = shown.iter().fold(Objections::default(), |objections, it| {
                 let without = right.iter().find(|other| other.row.name == it.row.name);
-                looks.or(it
+                objections.or(it
                     .objections
                     .not_in(without.map_or(Objections::default(), |it| it.objections)))
             });
-            let showing = Showing { defect, rows: shown, objections: looks };
+            let showing = Showing { defect, rows: shown, objections };
             progress.shown(&showing);
             showings.push(showing);
         }
