@@ -149,7 +149,7 @@ impl Field {
     /// The length of the body along X, or its outer radius.
     fn size(&self) -> Precise {
         match self.compiled.field.domain.body {
-            mms_spec::Body::Box { .. } => {
+            mms_spec::BodySpec::Box { .. } => {
                 self.bound(Bound::Upper)[0].clone() - self.bound(Bound::Lower)[0].clone()
             }
             _ => self.bound(Bound::Outer)[0].clone(),

@@ -12,7 +12,7 @@ use std::process::Command;
 
 use cpu_time::ProcessTime;
 use mms_results::names::{Axes, KNOWN, everything};
-use mms_results::write::{Column, Shape, State, npz};
+use mms_results::write::{ArrayShape, Column, State, npz};
 
 /// The default number of points.
 const POINTS: usize = 10_000_000;
@@ -32,7 +32,8 @@ fn state(points: usize) -> State {
     let of = |steps: [f64; 2], scale: f64| -> Vec<f64> {
         (0..points).flat_map(|at| steps.map(|step| scale * fraction(at, step))).collect()
     };
-    let column = |name: &str, values| Column { name: name.into(), shape: Shape::Vector, values };
+    let column =
+        |name: &str, values| Column { name: name.into(), shape: ArrayShape::Vector, values };
     let golden = 1.618_033_988_749_895;
     let columns = vec![
         column("X", of([golden, 2.0_f64.sqrt()], 1.0)),

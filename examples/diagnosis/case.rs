@@ -2,7 +2,7 @@
 
 use mms_diagnosis::answer::{Diagnosis, DiagnosisFinding};
 use mms_diagnosis::changed::{Changed, Without};
-use mms_diagnosis::evidence::{DEGREE, Frame, Mesh, Snapshot};
+use mms_diagnosis::evidence::{ComparisonFrame, DEGREE, Mesh, Snapshot};
 use mms_diagnosis::exact::{Exact, Quantity, vectors};
 use mms_diagnosis::hypothesis::{Change, Given, Hypothesis, Size, all};
 use mms_diagnosis::ordinary::diagnose;
@@ -242,7 +242,7 @@ where
     let points = meshes.iter().flat_map(|mesh| &mesh.snapshots).map(|it| it.reference.len() / D);
     let smooth = Smooth::new(&exact.domain.body, points.min()?, DEGREE).ok()?;
     let snapshots: Vec<&Snapshot> = meshes.last()?.snapshots.iter().collect();
-    let frame = Frame::new(&exact, &snapshots, smooth);
+    let frame = ComparisonFrame::new(&exact, &snapshots, smooth);
     let error = |mesh: &Mesh| Some(size(&frame.sight(mesh)?.errors_of(&exact)?.coefficients));
     if case != Case::Right && error(meshes.last()?)? <= 3.0 * error(&right)? {
         return None;

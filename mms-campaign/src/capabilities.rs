@@ -1,6 +1,6 @@
 //! The abilities of a solver.
 
-use mms_spec::Shape;
+use mms_spec::BodyShape;
 use mms_spec::diagnostic::{Diagnostic, quoted};
 use mms_spec::source::Spanned;
 use mms_spec::suggest::advice;
@@ -57,7 +57,7 @@ pub(crate) fn read(reader: &mut Reader, table: &Table<'_>) -> Option<Capabilitie
         found.iter().for_each(|word| validate_word(reader, key, word, known));
         found.into_iter().map(|word| word.value).collect::<Vec<_>>()
     };
-    let bodies = words(reader, "bodies", &Shape::words());
+    let bodies = words(reader, "bodies", &BodyShape::words());
     let loads = words(reader, "loads", LOADS);
     let materials = reader.texts(&table, "materials");
     let materials: Vec<_> = materials.into_iter().map(|word| word.value).collect();

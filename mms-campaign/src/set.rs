@@ -9,7 +9,7 @@ use toml::de::DeValue;
 
 use crate::table::{Reader, Table, Value, digits};
 
-/// The parameters of a step.
+/// A point of a parameter sweep: the parameters of one step.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct SweepPoint {
     /// The stepped parameters, as part of the name of a folder; empty if there are none.

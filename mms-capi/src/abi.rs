@@ -13,7 +13,7 @@ use crate::border::{attempt, guarded, guarded_or};
 use crate::error::{Error, MmsCode};
 use crate::field::Field;
 use crate::gallery;
-use crate::memory::{Extent, Message, Writable, array, handle, reference, text};
+use crate::memory::{MemoryRange, Message, Writable, array, handle, reference, text};
 use crate::stop::Stop;
 
 /// The largest number of bytes of a name. Longer names are not read further.
@@ -383,9 +383,9 @@ pub unsafe extern "C" fn mms_field_evaluate_stoppable(
             let normals =
                 if normals.is_null() { None } else { Some(array("normals", normals, size)?) };
             let others = [
-                Extent::of("quantity", name.as_bytes()),
-                Extent::of("points", points),
-                Extent::of("normals", normals.unwrap_or(&[])),
+                MemoryRange::of("quantity", name.as_bytes()),
+                MemoryRange::of("points", points),
+                MemoryRange::of("normals", normals.unwrap_or(&[])),
                 message.extent(),
             ];
             let mut values = Writable::new("values", values, room, &others)?;
@@ -417,8 +417,8 @@ pub unsafe extern "C" fn mms_field_normals(
             let size = count.saturating_mul(field.dimension());
             let points = array("points", points, size)?;
             let others = [
-                Extent::of("face", name.as_bytes()),
-                Extent::of("points", points),
+                MemoryRange::of("face", name.as_bytes()),
+                MemoryRange::of("points", points),
                 message.extent(),
             ];
             let mut normals = Writable::new("normals", normals, size, &others)?;

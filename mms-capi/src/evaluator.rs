@@ -13,7 +13,7 @@ pub const BLOCK: usize = <f64 as Blockwise>::BLOCK;
 #[derive(Debug)]
 pub struct Evaluator(Vec<(Quantity, QuantityCache)>);
 
-/// The data for one quantity.
+/// The plan of one quantity, and data that calls reuse.
 #[derive(Debug, Default)]
 struct QuantityCache {
     plan: OnceLock<Arc<BlockPlan>>,

@@ -10,20 +10,20 @@ use crate::error::{Error, MmsCode};
 
 /// The memory range of an argument.
 #[derive(Clone, Copy, Debug)]
-pub struct Extent {
+pub struct MemoryRange {
     what: &'static str,
     start: usize,
     bytes: usize,
 }
 
-impl Extent {
+impl MemoryRange {
     /// The range of an array or of a text.
     pub fn of<T>(what: &'static str, elements: &[T]) -> Self {
-        Extent { what, start: elements.as_ptr().addr(), bytes: size_of_val(elements) }
+        MemoryRange { what, start: elements.as_ptr().addr(), bytes: size_of_val(elements) }
     }
 
     /// Refuses two ranges with a common byte.
-    fn apart(self, other: Extent) -> Result<(), Error> {
+    fn apart(self, other: MemoryRange) -> Result<(), Error> {
         let [first, second] = if self.start <= other.start { [self, other] } else { [other, self] };
         if first.bytes == 0 || second.bytes == 0 || second.start - first.start >= first.bytes {
             return Ok(());
@@ -49,9 +49,9 @@ impl Message {
     }
 
     /// The range of the buffer. For a capacity that no buffer has, such as SIZE_MAX, only the first byte is certain.
-    pub fn extent(self) -> Extent {
+    pub fn extent(self) -> MemoryRange {
         let bytes = if self.capacity > isize::MAX as usize { 1 } else { self.capacity };
-        Extent { what: "message", start: self.first.addr(), bytes }
+        MemoryRange { what: "message", start: self.first.addr(), bytes }
     }
 
     /// Writes as much of a text as fits, whole characters only, and a NUL.
@@ -88,10 +88,10 @@ impl<T: Copy> Writable<T> {
         what: &'static str,
         first: *mut T,
         count: usize,
-        others: &[Extent],
+        others: &[MemoryRange],
     ) -> Result<Self, Error> {
         check(what, first, count)?;
-        let own = Extent { what, start: first.addr(), bytes: count * size_of::<T>() };
+        let own = MemoryRange { what, start: first.addr(), bytes: count * size_of::<T>() };
         others.iter().try_for_each(|other| own.apart(*other))?;
         Ok(Writable { next: first, left: count })
     }
@@ -225,7 +225,7 @@ pub mod tests {
 
     #[test]
     fn neighbours_are_apart_and_a_byte_in_common_is_not() {
-        let at = |what, start, bytes| Extent { what, start, bytes };
+        let at = |what, start, bytes| MemoryRange { what, start, bytes };
         let own = at("values", 16, 8);
         for (start, bytes) in [(8, 8), (24, 8), (0, 1), (16, 0), (20, 0)] {
             assert_eq!(own.apart(at("points", start, bytes)), Ok(()), "{start} {bytes}");

@@ -63,10 +63,10 @@ impl Variation {
     /// Checks that a field can be varied in this way, or returns what it lacks.
     pub fn fits(&self, field: &FieldSpec) -> Result<(), String> {
         match self {
-            Variation::Moved if !matches!(field.domain.body, mms_spec::Body::Box { .. }) => {
+            Variation::Moved if !matches!(field.domain.body, mms_spec::BodySpec::Box { .. }) => {
                 let why = match &field.domain.body {
-                    mms_spec::Body::Round(round) => format!("{} lies about the origin", round.shape.noun),
-                    mms_spec::Body::Nothing => "there is none".into(),
+                    mms_spec::BodySpec::Round(round) => format!("{} lies about the origin", round.shape.noun),
+                    mms_spec::BodySpec::Nothing => "there is none".into(),
                     _ => "only boxes are moved".into(),
                 };
                 Err(format!("the body is no box: {why}"))

@@ -8,7 +8,7 @@ use mms_spec::diagnostic::render;
 use mms_spec::quantity::Quantity;
 use mms_spec::source::Sources;
 use mms_spec::syntax::parse;
-use mms_spec::{Body, FieldSpec, read_field, read_material};
+use mms_spec::{BodySpec, FieldSpec, read_field, read_material};
 
 /// Reads a field that must be right.
 fn field(path: &Path) -> FieldSpec {
@@ -96,7 +96,7 @@ fn every_key_arrives() {
     assert_eq!(spec.parameters[3].value.text, "1000");
     assert_eq!(spec.displacement[0].text, "A*X*R");
     assert_eq!(spec.material.fibre.as_ref().map(Vec::len), Some(3));
-    assert!(matches!(&spec.domain.body, Body::Round(round) if round.theta.is_some()));
+    assert!(matches!(&spec.domain.body, BodySpec::Round(round) if round.theta.is_some()));
     let faces: Vec<_> = spec.boundary.iter().map(|found| found.face.value.name()).collect();
     assert_eq!(faces, ["inner", "outer", "theta_min", "theta_max"]);
     let claims: Vec<_> = spec.boundary.iter().map(|found| found.claim.value.name()).collect();

@@ -76,7 +76,7 @@ pub fn write(path: &Path, head: &Head, checkpoint: &dyn Checkpoint) -> anyhow::R
     .with_context(|| format!("cannot write `{}`", foreign::path(path)))
 }
 
-/// A checkpoint that is whole.
+/// A whole checkpoint in a file.
 #[derive(Debug)]
 pub struct StoredCheckpoint {
     /// The head of the checkpoint.
@@ -147,7 +147,7 @@ fn head_of(line: &[u8]) -> Result<Head, String> {
     serde_json::from_slice(line).map_err(wrong)
 }
 
-/// The place and the frequency of checkpoints.
+/// Writes the checkpoints of a run to one file.
 pub struct CheckpointWriter {
     path: PathBuf,
     every: usize,

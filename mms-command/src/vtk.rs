@@ -11,7 +11,7 @@ use anyhow::{Context as _, bail};
 use mms_files::write::{write_own, write_own_with};
 use mms_results::Cells;
 use mms_results::names::Axes;
-use mms_results::write::{Column, Mesh, Shape, State, vtu};
+use mms_results::write::{ArrayShape, Column, Mesh, State, vtu};
 use mms_runtime::study::Frame;
 use mms_spec::foreign;
 use mms_state::file::list;
@@ -115,13 +115,13 @@ fn state(frame: &Frame) -> State {
     };
     // A body of revolution has all nine components, in the order R, Z, hoop.
     let tensor = |name: &str, meridian: &[f64], around: &[f64]| match around {
-        [] => column(name, Shape::Tensor, meridian),
+        [] => column(name, ArrayShape::Tensor, meridian),
         around => {
             let nine = meridian
                 .chunks_exact(4)
                 .zip(around)
                 .flat_map(|(it, &hoop)| [it[0], it[1], 0.0, it[2], it[3], 0.0, 0.0, 0.0, hoop]);
-            column(name, Shape::Nine, &nine.collect::<Vec<_>>())
+            column(name, ArrayShape::Nine, &nine.collect::<Vec<_>>())
         }
     };
     let particles: Vec<f64> = (0..count).map(|particle| particle as f64).collect();
@@ -131,10 +131,10 @@ fn state(frame: &Frame) -> State {
         axes: Axes::Cartesian,
         facts: Vec::new(),
         columns: vec![
-            column("particle", Shape::Whole, &particles),
-            column("displacement", Shape::Vector, &frame.displacement),
-            column("displacement_error", Shape::Vector, &frame.displacement_error),
-            column("velocity", Shape::Vector, &frame.velocity),
+            column("particle", ArrayShape::Whole, &particles),
+            column("displacement", ArrayShape::Vector, &frame.displacement),
+            column("displacement_error", ArrayShape::Vector, &frame.displacement_error),
+            column("velocity", ArrayShape::Vector, &frame.velocity),
             tensor("deformation_gradient", &frame.deformation_gradient, &frame.hoop_stretch),
             tensor("cauchy_stress", &frame.cauchy_stress, &frame.hoop_stress),
         ],

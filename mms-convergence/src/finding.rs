@@ -6,7 +6,7 @@ use crate::limit::{Limit, limit};
 use crate::order::{Basis, Estimate, Line, pairs};
 use crate::sequence::{Sequence, SequenceLevel};
 use crate::share::{Share, lower, rounding};
-use crate::term::{Term, second_term};
+use crate::term::{ErrorTerm, second_term};
 use crate::verdict::Verdict;
 
 /// A theoretical order, and the tolerance of the observed one.
@@ -98,7 +98,7 @@ pub enum Reason {
     Settled,
 }
 
-/// The result of one norm.
+/// The finding about one norm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NormFinding {
     /// The outcome.
@@ -110,7 +110,7 @@ pub struct NormFinding {
     /// The share of a term of lower order, which decides; for three levels or more.
     pub share: Option<Share>,
     /// The second term that explains the drift of the orders best, if it is significant.
-    pub term: Option<Term>,
+    pub term: Option<ErrorTerm>,
     /// The limit of fine levels, for four levels or more.
     pub limit: Option<Limit>,
     /// The lengths of the levels that decided, from coarse to fine.
@@ -192,8 +192,8 @@ impl NormFinding {
     }
 
     /// The second term, if it changes the order on the finest level by a visible amount, and is not expected.
-    pub fn material_term(&self, expected: ExpectedOrder) -> Option<Term> {
-        let is_seen = |it: &Term| it.moves(expected.order) >= expected.resolution();
+    pub fn material_term(&self, expected: ExpectedOrder) -> Option<ErrorTerm> {
+        let is_seen = |it: &ErrorTerm| it.moves(expected.order) >= expected.resolution();
         self.term.filter(|it| is_seen(it) && expected.distance(it.order) != 0.0)
     }
 
@@ -218,7 +218,7 @@ impl NormFinding {
             return Self { reason, ..finding.decided(place) };
         }
         let p = expected.order;
-        finding.term = second_term(levels, p).filter(Term::is_shown);
+        finding.term = second_term(levels, p).filter(ErrorTerm::is_shown);
         finding.limit = limit(levels);
         finding.share = Share::of(levels, p, lower(p));
         let place = finding.place(levels, orders[orders.len() - 1], expected);

@@ -14,7 +14,7 @@
 //! | 3 | two orders p1, p2 | the [interval](Estimate): p1, p2, and p2 + 1.25 (p2 - p1)/(r - 1), the possible end of the drift |
 //! | 4 and more, or replicates | ln e = ln C + p ln h | the 95 % interval by Student's t, from the scatter |
 //! | 3 and more | e = C h^p + D h^(p-1) + E h^(p+1) | the [share](Share) of D in the finest error, which decides |
-//! | 3 and more | e = C h^p + D h^q, q of 0, p - 1, p + 1, p + 2 | the [second term](Term) that explains a drift, its share and the length at which it takes over |
+//! | 3 and more | e = C h^p + D h^q, q of 0, p - 1, p + 1, p + 2 | the [second term](ErrorTerm) that explains a drift, its share and the length at which it takes over |
 //! | 4 and more | e = e0 + C h^p | the [limit](Limit): consistent, if the interval of e0 contains 0 |
 //!
 //! A share s of the term h^(p-1) lowers the order on the finest level by s. It is known to within u, three quarters of its
@@ -59,7 +59,7 @@ pub use limit::Limit;
 pub use order::{Basis, Estimate};
 pub use sequence::{Sample, Sequence, SequenceLevel, observed_order};
 pub use share::Share;
-pub use term::{Term, TermKind};
+pub use term::{ErrorTerm, TermKind};
 pub use verdict::{CONSTANT_TOLERANCE, RULE, TOLERANCE, Verdict, is_near};
 pub use words::{Name, bound};
 

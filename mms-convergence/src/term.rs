@@ -18,7 +18,7 @@ pub enum TermKind {
 
 /// A second term in the errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Term {
+pub struct ErrorTerm {
     /// The kind of the term.
     pub kind: TermKind,
     /// q.
@@ -31,7 +31,7 @@ pub struct Term {
     pub takes_over: f64,
 }
 
-impl Term {
+impl ErrorTerm {
     /// Whether the term is significant, not only scatter.
     pub fn is_shown(&self) -> bool {
         self.interval[0] > 0.0 || self.interval[1] < 0.0
@@ -61,7 +61,7 @@ const EXACT: f64 = 1e-20;
 ///
 /// Errors are relative. Intervals are Student's for one of four tested terms (Bonferroni), so that scatter alone shows one in
 /// at most 5 % of all cases.
-pub(crate) fn second_term(levels: &[SequenceLevel], expected: f64) -> Option<Term> {
+pub(crate) fn second_term(levels: &[SequenceLevel], expected: f64) -> Option<ErrorTerm> {
     let misfit = Line::through(levels).map_or(f64::INFINITY, |line| line.left);
     if misfit < EXACT {
         return None;
@@ -72,7 +72,7 @@ pub(crate) fn second_term(levels: &[SequenceLevel], expected: f64) -> Option<Ter
 }
 
 /// Fits one kind of term, and returns its misfit, too.
-fn fit(levels: &[SequenceLevel], p: f64, (kind, q): (TermKind, f64)) -> Option<(Term, f64)> {
+fn fit(levels: &[SequenceLevel], p: f64, (kind, q): (TermKind, f64)) -> Option<(ErrorTerm, f64)> {
     let finest = levels.last()?;
     let row = |level: &SequenceLevel| {
         let (x, e) = (level.length / finest.length, level.error() / finest.error());
@@ -87,6 +87,7 @@ fn fit(levels: &[SequenceLevel], p: f64, (kind, q): (TermKind, f64)) -> Option<(
     let reach = found.reach(1, OUTSIDE / 4.0) / error;
     let share = d / error;
     let takes_over = finest.length * (d / c).abs().powf(1.0 / (p - q));
-    let term = Term { kind, order: q, share, interval: [share - reach, share + reach], takes_over };
+    let term =
+        ErrorTerm { kind, order: q, share, interval: [share - reach, share + reach], takes_over };
     (misfit.is_finite() && error > 0.0).then_some((term, misfit))
 }

@@ -4,7 +4,7 @@ use crate::finding::{ExpectedOrder, NormFinding, Reason};
 use crate::grid::Fit;
 use crate::judgement::{Judgement, NormJudgement};
 use crate::order::Basis;
-use crate::term::{Term, TermKind};
+use crate::term::{ErrorTerm, TermKind};
 use crate::verdict::Verdict;
 
 /// A function that names a level: by its length, or as the caller prefers.
@@ -186,7 +186,7 @@ impl Fit {
     }
 }
 
-impl Term {
+impl ErrorTerm {
     fn sentence(&self, p: f64, symbol: &str, name: Name<'_>) -> String {
         let (q, at) = (self.order, name(self.takes_over));
         let what = match self.kind {

@@ -172,7 +172,7 @@ pub struct Pair {
     pub explained: f64,
 }
 
-/// The concentration of an error.
+/// The place where an error is concentrated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorPlace {
     /// X of the point with the largest error.

@@ -70,7 +70,7 @@ const TIMES: usize = 4;
 /// The compared results: quantities at times, as coefficients of smooth functions, each divided by the size of the exact
 /// quantity.
 #[derive(Clone, Debug)]
-pub struct Frame<const D: usize> {
+pub struct ComparisonFrame<const D: usize> {
     /// The times.
     pub times: Vec<f64>,
     /// The quantities, each with its size.
@@ -87,7 +87,7 @@ pub struct ErrorCoefficients {
     pub share: f64,
 }
 
-impl<const D: usize> Frame<D> {
+impl<const D: usize> ComparisonFrame<D> {
     /// The frame for results with these points, at some of their times.
     pub fn new(exact: &Exact<'_, D>, snapshots: &[&Snapshot], smooth: Smooth<D>) -> Self {
         let (start, is_at_rest) = (exact.domain.time[0], exact.is_at_rest());
@@ -108,7 +108,7 @@ impl<const D: usize> Frame<D> {
             if mean > 0.0 { mean.sqrt() } else { 1.0 }
         };
         let times = chosen.iter().map(|it| it.time);
-        Frame {
+        ComparisonFrame {
             // At the start the state is given, unless nothing moves.
             times: times.filter(|time| *time > start || is_at_rest).collect(),
             quantities: kinds.iter().map(|(quantity, _)| (*quantity, size(*quantity))).collect(),
@@ -156,7 +156,7 @@ impl<const D: usize> Frame<D> {
 
 /// Fits the errors of a mesh by the smooth functions of a frame.
 pub struct Sight<'a, const D: usize> {
-    frame: &'a Frame<D>,
+    frame: &'a ComparisonFrame<D>,
     mesh: &'a Mesh,
     /// X of the points at each time, and the fit there.
     points: Vec<(&'a [f64], Arc<Fitting>)>,

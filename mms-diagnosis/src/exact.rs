@@ -6,7 +6,7 @@ use mms_runtime::body::{Filling, bounding_box};
 use mms_runtime::{Domain, Fill, ManufacturedField, Matrix, Vector};
 
 use crate::follow::{Follow, Unfollowed};
-use crate::law::{LAWS, Law, moduli};
+use crate::law::{LAWS, PublishedLaw, moduli};
 use crate::revolved::Revolved;
 
 /// A quantity of the motion that solvers write.
@@ -70,7 +70,7 @@ pub struct Exact<'a, const D: usize> {
     /// h of the solver.
     pub cell_size: f64,
     /// The published law that is the law of the field.
-    pub law: Option<&'static Law>,
+    pub law: Option<&'static PublishedLaw>,
     /// The parameters of the material, if they are known.
     pub parameters: Option<&'a dyn Parameters<D>>,
     /// The field in space, if it is axisymmetric.

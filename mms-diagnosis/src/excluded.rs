@@ -11,7 +11,7 @@ use mms_runtime::body::{Filling, bounding_box};
 use mms_runtime::study::Solve;
 
 use crate::changed::Without;
-use crate::evidence::{Frame, Mesh, Snapshot};
+use crate::evidence::{ComparisonFrame, Mesh, Snapshot};
 use crate::exact::{Exact, Quantity};
 use crate::hypothesis::{Hypothesis, HypothesisKind, Size, title};
 use crate::level::on_all_processors;
@@ -85,7 +85,7 @@ const MOST_WORK: f64 = 3e5;
 /// The runs that are compared.
 struct Runs<'a, const D: usize> {
     exact: &'a Exact<'a, D>,
-    frame: &'a Frame<D>,
+    frame: &'a ComparisonFrame<D>,
     mesh: &'a Mesh,
     solvers: Solvers<'a, D>,
     errors: &'a [(Quantity, f64)],
@@ -105,7 +105,7 @@ where
 {
     fn new(
         exact: &'a Exact<'a, D>,
-        frame: &'a Frame<D>,
+        frame: &'a ComparisonFrame<D>,
         mesh: &'a Mesh,
         is_static: bool,
     ) -> Result<Self, Obstacle> {
@@ -149,7 +149,7 @@ where
     let snapshots: Vec<&Snapshot> = mesh.snapshots.iter().collect();
     // Errors are compared point by point: no smooth functions are fitted to them.
     let none = Smooth::new(&exact.domain.body, 1, [0; 3])?;
-    let frame = Frame::new(exact, &snapshots, none);
+    let frame = ComparisonFrame::new(exact, &snapshots, none);
     if frame.times.is_empty() {
         return Err(Obstacle::AtStart);
     }

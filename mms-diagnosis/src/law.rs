@@ -10,7 +10,7 @@ pub type Tensor = Matrix<f64, 3>;
 
 /// A law tau = lambda L(F) + mu M(F).
 #[derive(Clone, Copy, Debug)]
-pub struct Law {
+pub struct PublishedLaw {
     /// The identifier of the law.
     pub name: &'static str,
     /// W, or the stress if there is no W.
@@ -20,13 +20,13 @@ pub struct Law {
 }
 
 /// All published laws.
-pub const LAWS: [Law; 10] = [
-    Law {
+pub const LAWS: [PublishedLaw; 10] = [
+    PublishedLaw {
         name: "neo_hookean",
         formula: "mu/2 (I1 - 3) - mu ln J + lambda/2 (ln J)^2",
         parts: |f| [identity(f.determinant().ln()), left(f) - identity(1.0)],
     },
-    Law {
+    PublishedLaw {
         name: "neo_hookean_quadratic",
         formula: "mu/2 (I1 - 3) - mu ln J + lambda/2 (J - 1)^2",
         parts: |f| {
@@ -34,7 +34,7 @@ pub const LAWS: [Law; 10] = [
             [identity(j * (j - 1.0)), left(f) - identity(1.0)]
         },
     },
-    Law {
+    PublishedLaw {
         name: "neo_hookean_ciarlet",
         formula: "mu/2 (I1 - 3) - mu ln J + lambda/4 (J^2 - 1 - 2 ln J)",
         parts: |f| {
@@ -42,12 +42,12 @@ pub const LAWS: [Law; 10] = [
             [identity((j * j - 1.0) / 2.0), left(f) - identity(1.0)]
         },
     },
-    Law {
+    PublishedLaw {
         name: "neo_hookean_linear_volume",
         formula: "mu/2 (I1 - 3) - mu ln J + lambda (J - 1 - ln J)",
         parts: |f| [identity(f.determinant() - 1.0), left(f) - identity(1.0)],
     },
-    Law {
+    PublishedLaw {
         name: "neo_hookean_isochoric",
         formula: "mu/2 (J^(-2/3) I1 - 3) + kappa/2 (J - 1)^2",
         parts: |f| {
@@ -55,17 +55,17 @@ pub const LAWS: [Law; 10] = [
             isochoric(f, j * (j - 1.0))
         },
     },
-    Law {
+    PublishedLaw {
         name: "neo_hookean_isochoric_logarithmic",
         formula: "mu/2 (J^(-2/3) I1 - 3) + kappa/2 (ln J)^2",
         parts: |f| isochoric(f, f.determinant().ln()),
     },
-    Law {
+    PublishedLaw {
         name: "neo_hookean_isochoric_mixed",
         formula: "mu/2 (J^(-2/3) I1 - 3) + kappa/4 (J^2 - 1 - 2 ln J)",
         parts: |f| isochoric(f, (f.determinant().powi(2) - 1.0) / 2.0),
     },
-    Law {
+    PublishedLaw {
         name: "saint_venant_kirchhoff",
         formula: "lambda/2 (tr E)^2 + mu E:E",
         parts: |f| {
@@ -74,7 +74,7 @@ pub const LAWS: [Law; 10] = [
             [push(identity(e.trace())), push(e * 2.0)]
         },
     },
-    Law {
+    PublishedLaw {
         name: "hencky",
         formula: "lambda/2 (tr ln U)^2 + mu ln U:ln U",
         parts: |f| {
@@ -84,7 +84,7 @@ pub const LAWS: [Law; 10] = [
             [identity(strain.trace()), strain * 2.0]
         },
     },
-    Law {
+    PublishedLaw {
         name: "linear_elastic",
         formula: "P = lambda tr(e) I + 2 mu e, e = sym H: small strains",
         parts: |f| {
@@ -126,7 +126,7 @@ pub fn in_plane<const D: usize>(tensor: &Tensor) -> Matrix<f64, D> {
     Matrix::from_fn(|i, j| tensor[(i, j)])
 }
 
-impl Law {
+impl PublishedLaw {
     /// L and M for H in D dimensions.
     pub fn in_dimension<const D: usize>(&self, gradient: &Matrix<f64, D>) -> [Matrix<f64, D>; 2] {
         (self.parts)(&in_space(gradient)).map(|part| in_plane(&part))
@@ -156,7 +156,7 @@ impl Law {
 /// lambda and mu with which a law comes nearest to some stresses, and the relative difference that remains. `None` if the
 /// stresses do not determine both.
 pub fn moduli<const D: usize>(
-    law: &Law,
+    law: &PublishedLaw,
     samples: &[(Matrix<f64, D>, Matrix<f64, D>)],
 ) -> Option<([f64; 2], f64)> {
     let (mut normal, mut right, mut size) = ([0.0; 3], [0.0; 2], 0.0);

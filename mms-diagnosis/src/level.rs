@@ -8,7 +8,7 @@ use mms_runtime::Method;
 use mms_runtime::study::Solve;
 
 use crate::changed::Without;
-use crate::evidence::{ErrorCoefficients, Frame, Mesh, Sight};
+use crate::evidence::{ComparisonFrame, ErrorCoefficients, Mesh, Sight};
 use crate::exact::Exact;
 use crate::follow::Follow;
 use crate::hypothesis::{Change, Hypothesis};
@@ -51,7 +51,7 @@ fn of_methods<const D: usize>(
 impl<'a, const D: usize> MeshLevel<'a, D> {
     fn new(
         exact: &'a Exact<'a, D>,
-        frame: &'a Frame<D>,
+        frame: &'a ComparisonFrame<D>,
         mesh: &'a Mesh,
         solvers: Box<dyn Responses<'a, D> + 'a>,
     ) -> Result<Self, Obstacle> {
@@ -71,7 +71,7 @@ impl<'a, const D: usize> MeshLevel<'a, D> {
 /// The finest mesh, and the next coarser one if there is one.
 pub struct Levels<'a, const D: usize> {
     exact: &'a Exact<'a, D>,
-    frame: &'a Frame<D>,
+    frame: &'a ComparisonFrame<D>,
     /// The finest mesh.
     pub fine: MeshLevel<'a, D>,
     coarse: Option<MeshLevel<'a, D>>,
@@ -86,7 +86,7 @@ impl<'a, const D: usize> Levels<'a, D> {
     /// Values that are not finite; runs that would take too long; a body at rest that can move rigidly.
     pub fn new(
         exact: &'a Exact<'a, D>,
-        frame: &'a Frame<D>,
+        frame: &'a ComparisonFrame<D>,
         meshes: &'a [Mesh],
         like: Option<&Method>,
     ) -> Result<Self, Obstacle>

@@ -4,7 +4,7 @@ use mms_runtime::Method;
 use mms_runtime::study::Solve;
 
 use crate::changed::Without;
-use crate::evidence::{Frame, Mesh};
+use crate::evidence::{ComparisonFrame, Mesh};
 use crate::exact::{Exact, Quantity};
 use crate::level::MOST_WORK;
 use crate::run::{Obstacle, Responses, SolverRuns};
@@ -17,7 +17,7 @@ use crate::smooth::size;
 /// Runs that stop, that would take too long, or whose error does not fall.
 pub fn orders_of<const D: usize>(
     exact: &Exact<'_, D>,
-    frame: &Frame<D>,
+    frame: &ComparisonFrame<D>,
     mesh: &Mesh,
     method: &Method,
 ) -> Result<Vec<(Quantity, f64)>, Obstacle>

@@ -7,7 +7,7 @@ use mms_runtime::study::Solve;
 use crate::answer::{
     Diagnosis, DiagnosisFinding, Explained, Fields, Like, Limits, Ranked, Rung, ranked, unseen,
 };
-use crate::evidence::{Frame, Mesh};
+use crate::evidence::{ComparisonFrame, Mesh};
 use crate::exact::Exact;
 use crate::falls::OfOrder;
 use crate::hypothesis::{Change, Hypothesis, earlier_velocity};
@@ -38,7 +38,7 @@ const PROMISING: f64 = 0.5;
 /// The comparison of results with every hypothesis.
 struct HypothesisSearch<'a, const D: usize> {
     exact: &'a Exact<'a, D>,
-    frame: &'a Frame<D>,
+    frame: &'a ComparisonFrame<D>,
     levels: Levels<'a, D>,
     hypotheses: &'a [Hypothesis<D>],
     /// The right methods that an error may be like.
@@ -53,7 +53,7 @@ where
 {
     fn new(
         exact: &'a Exact<'a, D>,
-        frame: &'a Frame<D>,
+        frame: &'a ComparisonFrame<D>,
         levels: Levels<'a, D>,
         hypotheses: &'a [Hypothesis<D>],
         solver: &Solver,
@@ -252,7 +252,7 @@ where
     }
 
     /// The differences of other methods' responses from the first's; none for output or a hypothesis that explains too little.
-    fn other_methods(
+    fn method_differences(
         &self,
         hypothesis: &Hypothesis<D>,
         sizes: &[Vec<f64>],
@@ -304,7 +304,7 @@ const LEAST_ORDER: f64 = 0.25;
 /// Results that cannot be diagnosed.
 pub fn diagnose<const D: usize>(
     exact: &Exact<'_, D>,
-    frame: &Frame<D>,
+    frame: &ComparisonFrame<D>,
     meshes: &[Mesh],
     hypotheses: &[Hypothesis<D>],
     solver: &Solver,

@@ -96,7 +96,12 @@ pub trait Effect<const D: usize> {
     fn response(&self, hypothesis: &Hypothesis<D>, size: &[f64]) -> Option<Vec<f64>>;
 
     /// The differences between methods in such errors, where they are known.
-    fn other_methods(&self, _: &Hypothesis<D>, _: &[Vec<f64>], _: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    fn method_differences(
+        &self,
+        _: &Hypothesis<D>,
+        _: &[Vec<f64>],
+        _: &[Vec<f64>],
+    ) -> Vec<Vec<f64>> {
         Vec::new()
     }
 }
@@ -195,7 +200,7 @@ fn one<const D: usize>(
 ) -> Option<Explained> {
     let found = effect.response(hypothesis, &[at]);
     let response = [found.filter(|it| it.iter().all(|it| it.is_finite()))?];
-    let doubts = effect.other_methods(hypothesis, &[vec![at]], &response);
+    let doubts = effect.method_differences(hypothesis, &[vec![at]], &response);
     let (scale, remains) = error.explain(&response, &doubts);
     let ([response], scale) = (response, scale[0]);
     let share = error.share(&remains);
@@ -224,7 +229,7 @@ fn vector<const D: usize>(
     let sizes: Vec<_> = (0..right.len()).map(along).collect();
     let responses = sizes.iter().map(|at| effect.response(hypothesis, at));
     let responses: Vec<_> = responses.collect::<Option<_>>()?;
-    let doubts = effect.other_methods(hypothesis, &sizes, &responses);
+    let doubts = effect.method_differences(hypothesis, &sizes, &responses);
     let (scales, remains) = error.explain(&responses, &doubts);
     let share = error.share(&remains);
     let steps = right.iter().zip(first).zip(&scales);

@@ -11,7 +11,7 @@ use mms_runtime::{
 };
 
 use crate::changed::{Changed, Without};
-use crate::evidence::{Frame, Mesh, Snapshot, nearest};
+use crate::evidence::{ComparisonFrame, Mesh, Snapshot, nearest};
 use crate::exact::{Exact, Quantity, vectors};
 use crate::follow::Follow;
 use crate::hypothesis::{Change, Given, Hypothesis};
@@ -138,7 +138,7 @@ pub trait Responses<'a, const D: usize>: Sync {
 /// Runs of this project's own solver.
 pub struct SolverRuns<'a, const D: usize> {
     exact: &'a Exact<'a, D>,
-    frame: &'a Frame<D>,
+    frame: &'a ComparisonFrame<D>,
     mesh: &'a Mesh,
     without: Without,
     cells: usize,
@@ -226,7 +226,7 @@ where
     /// Runs that would take too long on any grid.
     pub fn new(
         exact: &'a Exact<'a, D>,
-        frame: &'a Frame<D>,
+        frame: &'a ComparisonFrame<D>,
         mesh: &'a Mesh,
         without: Without,
         like: Option<&Method>,
@@ -393,7 +393,7 @@ fn reference<const D: usize>(state: &State) -> Vec<Vector<f64, D>> {
 /// The errors that a mistake in written results makes at a user's points, by time and quantity; `None` for other mistakes.
 pub fn written<const D: usize>(
     exact: &Exact<'_, D>,
-    frame: &Frame<D>,
+    frame: &ComparisonFrame<D>,
     mesh: &Mesh,
     hypothesis: &Hypothesis<D>,
     size: &[f64],

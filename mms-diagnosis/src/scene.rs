@@ -7,7 +7,7 @@ use mms_runtime::{ManufacturedField, Matrix, Method, Vector};
 
 use crate::answer::{Diagnosis, Ranked, Rung};
 use crate::closed_form::{self, ClosedForm, Values};
-use crate::evidence::{DEGREE, Frame, Mesh, Snapshot};
+use crate::evidence::{ComparisonFrame, DEGREE, Mesh, Snapshot};
 use crate::exact::{Exact, Parameters, Quantity, vectors};
 use crate::excluded::{Excluded, Study, excluded};
 use crate::follow::{Follow, Unfollowed};
@@ -65,7 +65,7 @@ impl Evidence {
     }
 }
 
-/// The stresses of a law.
+/// The stresses of a law, in lists of numbers.
 pub struct StressData {
     /// X; empty if it is not given.
     pub reference: Vec<f64>,
@@ -81,7 +81,7 @@ pub struct StressData {
     pub rounding_of_gradient: f64,
 }
 
-/// The tangents of a law.
+/// The tangents of a law, in lists of numbers.
 pub struct TangentData {
     /// X; empty if it is not given.
     pub reference: Vec<f64>,
@@ -333,7 +333,10 @@ fn thinned<const D: usize>(meshes: &[Mesh]) -> Vec<Mesh> {
 }
 
 /// The quantities, times and functions in which meshes are compared.
-fn frame<const D: usize>(exact: &Exact<'_, D>, meshes: &[Mesh]) -> Result<Frame<D>, Obstacle> {
+fn frame<const D: usize>(
+    exact: &Exact<'_, D>,
+    meshes: &[Mesh],
+) -> Result<ComparisonFrame<D>, Obstacle> {
     let points = meshes.iter().flat_map(|mesh| &mesh.snapshots).map(|it| it.reference.len() / D);
     let points = points.min().unwrap_or(0);
     if points < FEWEST_POINTS {
@@ -342,7 +345,7 @@ fn frame<const D: usize>(exact: &Exact<'_, D>, meshes: &[Mesh]) -> Result<Frame<
     let smooth = Smooth::new(&exact.domain.body, points, DEGREE)?;
     let snapshots: Vec<&Snapshot> =
         meshes.last().map_or(Vec::new(), |it| it.snapshots.iter().collect());
-    let frame = Frame::new(exact, &snapshots, smooth);
+    let frame = ComparisonFrame::new(exact, &snapshots, smooth);
     if frame.times.is_empty() {
         return Err(Obstacle::AtStart);
     }

@@ -16,7 +16,7 @@ use mms_runtime::{
 
 use crate::answer::Computed;
 use crate::changed::{Changed, Without};
-use crate::evidence::{Frame, Mesh, nearest};
+use crate::evidence::{ComparisonFrame, Mesh, nearest};
 use crate::exact::{Exact, Quantity, vectors};
 use crate::hypothesis::{Change, Hypothesis};
 use crate::run::Responses;
@@ -323,7 +323,10 @@ impl<'a, const D: usize> Equilibrium<'a, D> {
     ///
     /// # Errors
     /// A body without extent.
-    pub fn new(exact: &'a Exact<'a, D>, frame: &Frame<D>) -> Result<Option<Self>, Refusal> {
+    pub fn new(
+        exact: &'a Exact<'a, D>,
+        frame: &ComparisonFrame<D>,
+    ) -> Result<Option<Self>, Refusal> {
         let Some(time) = frame.times.last() else { return Ok(None) };
         let Some(system) = System::new(exact, *time, &exact.domain) else { return Ok(None) };
         let methods = system.weak.of_elements(Computed::NodalResidual, &Without::default()).methods;
@@ -394,7 +397,7 @@ pub struct Statics<'a, const D: usize> {
     /// Shared by all meshes.
     equilibrium: Arc<Equilibrium<'a, D>>,
     /// The frame in which errors are compared.
-    frame: &'a Frame<D>,
+    frame: &'a ComparisonFrame<D>,
     /// The mesh.
     mesh: &'a Mesh,
     /// The h of the mesh, or a larger one.
@@ -405,7 +408,11 @@ pub struct Statics<'a, const D: usize> {
 
 impl<'a, const D: usize> Statics<'a, D> {
     /// The responses at the points of a mesh.
-    pub fn new(equilibrium: Arc<Equilibrium<'a, D>>, frame: &'a Frame<D>, mesh: &'a Mesh) -> Self {
+    pub fn new(
+        equilibrium: Arc<Equilibrium<'a, D>>,
+        frame: &'a ComparisonFrame<D>,
+        mesh: &'a Mesh,
+    ) -> Self {
         let (cell_size, functions) = (mesh.cell_size, OnceLock::new());
         Statics { equilibrium, frame, mesh, cell_size, functions }
     }

@@ -47,13 +47,13 @@ pub enum Entry<T> {
 }
 
 /// The right to compute a result, until it is dropped.
-pub struct Claim {
+pub struct ResultLock {
     /// The lock of this process.
     _lock: File,
     path: PathBuf,
 }
 
-impl Drop for Claim {
+impl Drop for ResultLock {
     /// Removes the lock file. A process that waits for its lock then makes a new one, and finds the result in the store.
     fn drop(&mut self) {
         let _ = fs::remove_file(&self.path);
@@ -139,11 +139,11 @@ impl Store {
     ///
     /// # Errors
     /// A file that cannot be made or locked.
-    pub fn claim(&self, key: &impl Serialize, wait: bool) -> anyhow::Result<Option<Claim>> {
+    pub fn claim(&self, key: &impl Serialize, wait: bool) -> anyhow::Result<Option<ResultLock>> {
         let path = self.path(&serde_json::to_string(key)?, "lock");
         let lock = lock(&path, wait);
         let lock = lock.with_context(|| format!("cannot lock `{}`", foreign::path(&path)))?;
-        Ok(lock.map(|lock| Claim { _lock: lock, path }))
+        Ok(lock.map(|lock| ResultLock { _lock: lock, path }))
     }
 
     fn path(&self, key: &str, extension: &str) -> PathBuf {

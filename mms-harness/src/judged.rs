@@ -9,7 +9,7 @@ use mms_judge::{Judgements, Unfollowed};
 use mms_results::Snapshot;
 
 use super::plan::{Job, Judging, PlannedStudy};
-use super::work::{RunOutcome, Work};
+use super::work::{CampaignRunner, RunOutcome};
 
 /// The judgement of a study.
 pub struct JudgedStudy<'a> {
@@ -31,7 +31,7 @@ impl<'a> JudgedStudy<'a> {
     /// # Errors
     /// Its field cannot be evaluated.
     pub fn new(
-        work: &Work<'_>,
+        work: &CampaignRunner<'_>,
         planned: &'a PlannedStudy,
         outcomes: Vec<RunOutcome>,
         provenance: &dyn Fn(&PlannedStudy) -> Provenance,

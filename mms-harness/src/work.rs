@@ -76,7 +76,7 @@ pub trait Watcher: Sync {
 }
 
 /// A plan, and the store for its results.
-pub struct Work<'a> {
+pub struct CampaignRunner<'a> {
     /// The runs.
     pub plan: &'a CampaignPlan,
     /// The store of results.
@@ -89,7 +89,7 @@ pub struct Work<'a> {
     emitted: Mutex<BTreeMap<String, Arc<Vec<File>>>>,
 }
 
-impl<'a> Work<'a> {
+impl<'a> CampaignRunner<'a> {
     /// The work on a plan; starts nothing.
     pub fn new(
         plan: &'a CampaignPlan,
@@ -97,7 +97,7 @@ impl<'a> Work<'a> {
         folder: &'a Path,
         watcher: &'a dyn Watcher,
     ) -> Self {
-        Work { plan, store, folder, watcher, emitted: Mutex::default() }
+        CampaignRunner { plan, store, folder, watcher, emitted: Mutex::default() }
     }
 
     /// Makes the runs of each study, `jobs` of them at the same time, and returns their outcomes.

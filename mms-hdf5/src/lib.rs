@@ -63,7 +63,7 @@ pub struct Set {
     place: Storage,
 }
 
-/// The place of an array.
+/// The storage of an array.
 enum Storage {
     /// In HDF5; and whether the array is compressed there, and may be longer than the file.
     Tree(Box<hdf5_reader::Dataset>, bool),

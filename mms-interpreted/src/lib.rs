@@ -436,11 +436,11 @@ impl<T: Real + Blockwise, const D: usize> ManufacturedField<T, D> for Interprete
         };
         let round = || (number(Bound::Inner), number(Bound::Outer), pair(Bound::Theta));
         let body = match &self.compiled.field.domain.body {
-            mms_spec::Body::Box { .. } => Body::Box {
+            mms_spec::BodySpec::Box { .. } => Body::Box {
                 lower: Vector::from_column_slice(&self.bound(Bound::Lower)),
                 upper: Vector::from_column_slice(&self.bound(Bound::Upper)),
             },
-            mms_spec::Body::Round(shape) => {
+            mms_spec::BodySpec::Round(shape) => {
                 let (inner, outer, theta) = round();
                 match shape.shape.name {
                     "cylinder" => Body::Cylinder { inner, outer, theta, z: pair(Bound::Z) },
@@ -448,12 +448,12 @@ impl<T: Real + Blockwise, const D: usize> ManufacturedField<T, D> for Interprete
                     _ => Body::Annulus { inner, outer, theta },
                 }
             }
-            mms_spec::Body::Polygon(polygon) => {
+            mms_spec::BodySpec::Polygon(polygon) => {
                 let vertices = self.bound(Bound::Vertices);
                 let pairs = vertices.chunks_exact(2).map(|pair| [pair[0], pair[1]]);
                 Body::Polygon { vertices: pairs.collect(), names: polygon.names.clone() }
             }
-            mms_spec::Body::Nothing => Body::Nothing,
+            mms_spec::BodySpec::Nothing => Body::Nothing,
         };
         let time = self.bound(Bound::Time);
         let claims = self.compiled.field.boundary.iter();

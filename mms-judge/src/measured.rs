@@ -15,7 +15,7 @@ pub struct Measured {
     pub quantities: Vec<Quantity>,
 }
 
-/// One run.
+/// The h and dt of one run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RunSize {
     /// h.

@@ -121,14 +121,14 @@ pub fn candidates<K: Ord + Copy>(
 
 /// The required accuracy of a candidate.
 #[derive(Clone, Copy)]
-pub(super) struct Accuracy<'a> {
+pub(super) struct RequiredAccuracy<'a> {
     /// The parameter with which the motion vanishes, if digits must be kept at small values of it.
     pub amplitude: Option<&'a Amplitude>,
     /// The places where bounds of the rounding error are compared; none if only the cost counts.
     pub rounding: &'a Rounding,
 }
 
-impl Accuracy<'_> {
+impl RequiredAccuracy<'_> {
     /// Whether components keep their digits at small amplitudes.
     pub fn is_kept(self, graph: &Graph, components: &[Expr]) -> bool {
         self.amplitude.is_none_or(|amplitude| amplitude.keeps(graph, components))
@@ -145,7 +145,7 @@ pub(super) fn choose_all<K: Ord + Copy>(
     graph: &Graph,
     derived: &Components<K>,
     candidates: &[Candidate<K>],
-    accuracy: Accuracy<'_>,
+    accuracy: RequiredAccuracy<'_>,
 ) -> Components<K> {
     let chosen = |(key, own): (&K, &Vec<Expr>)| {
         let ways = candidates.iter().filter_map(|it| it.components.get(key));
@@ -162,7 +162,7 @@ pub(super) fn choose_all<K: Ord + Copy>(
 fn choose<'a>(
     graph: &Graph,
     mut ways: Vec<&'a [Expr]>,
-    accuracy: Accuracy<'_>,
+    accuracy: RequiredAccuracy<'_>,
 ) -> Option<&'a [Expr]> {
     let mut costs = SortedMap::<&[Expr], Cost>::new();
     for way in &ways {

@@ -460,7 +460,7 @@ impl Reader<'_> {
         None
     }
 
-    /// Formulas of keys that were refused.
+    /// Parses formulas of keys that were refused, and reports their mistakes.
     fn check_stray_formulas(&mut self, field: &FieldSpec) {
         for stray in &field.stray {
             syntax::parse(stray, self.diagnostics);

@@ -16,7 +16,7 @@ const NON_SMOOTH: &[&str] =
 
 /// An operation, as written, that may lack a value or a derivative somewhere.
 #[derive(Clone, Debug)]
-pub struct Step {
+pub struct WrittenOperation {
     /// The place in the file.
     pub span: Span,
     /// The value of the operation itself: a power or a call; for a quotient the divisor, since recording a step must not make a
@@ -26,7 +26,7 @@ pub struct Step {
     pub is_divisor: bool,
 }
 
-impl Step {
+impl WrittenOperation {
     /// The value of the step.
     pub fn made(&self, graph: &mut Graph) -> Expr {
         if self.is_divisor { graph.power(self.value, -1) } else { self.value }
@@ -121,7 +121,7 @@ impl Scope {
         graph: &mut Graph,
         ast: &Ast,
         diagnostics: &mut Vec<Diagnostic>,
-        steps: &mut Vec<Step>,
+        steps: &mut Vec<WrittenOperation>,
     ) -> Option<Expr> {
         if graph.is_exhausted() {
             return None;
@@ -183,7 +183,7 @@ struct Resolver<'a> {
     scope: &'a Scope,
     graph: &'a mut Graph,
     diagnostics: &'a mut Vec<Diagnostic>,
-    steps: &'a mut Vec<Step>,
+    steps: &'a mut Vec<WrittenOperation>,
 }
 
 impl Resolver<'_> {
@@ -215,7 +215,11 @@ impl Resolver<'_> {
                     .map(|index| values[*index].take().map(|value| value.finish(self.graph)))
                     .collect();
                 let value = self.call(name, &values, &spans);
-                self.steps.extend(value.map(|value| Step { span, value, is_divisor: false }));
+                self.steps.extend(value.map(|value| WrittenOperation {
+                    span,
+                    value,
+                    is_divisor: false,
+                }));
                 value
             }
         };
@@ -298,7 +302,7 @@ impl Resolver<'_> {
                     _ => Rational::NEG_ONE,
                 };
                 if operator == Operator::Divide && self.graph.as_number(b).is_none() {
-                    self.steps.push(Step { span, value: b, is_divisor: true });
+                    self.steps.push(WrittenOperation { span, value: b, is_divisor: true });
                 }
                 factors.push((b, exponent));
                 Some(Partial::Product(factors))
@@ -306,7 +310,11 @@ impl Resolver<'_> {
             Operator::Power => {
                 let base = a.finish(self.graph);
                 let value = self.power(base, b, left, right);
-                self.steps.extend(value.map(|value| Step { span, value, is_divisor: false }));
+                self.steps.extend(value.map(|value| WrittenOperation {
+                    span,
+                    value,
+                    is_divisor: false,
+                }));
                 value.map(Partial::Done)
             }
         }

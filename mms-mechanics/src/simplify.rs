@@ -41,7 +41,7 @@
 
 use crate::amplitude::Amplitude;
 use crate::candidates::{
-    Accuracy, Candidate, Components, Rewriting, candidates, choose_all, reduced, unexpanded,
+    Candidate, Components, RequiredAccuracy, Rewriting, candidates, choose_all, reduced, unexpanded,
 };
 use crate::derivation::derive_without_cancellation;
 use crate::derivation::{Derivation, derive};
@@ -91,8 +91,8 @@ pub fn simplify(
     let by_deformation = derived(graph, model, Route::Deformation, &used);
     let by_all_routes = [by_gradient.clone(), by_deformation].concat();
     let (rounding, unasked) = (Rounding::new(graph, model), Rounding::default());
-    let any = Accuracy { amplitude: None, rounding: &unasked };
-    let exact = Accuracy { rounding: &rounding, ..any };
+    let any = RequiredAccuracy { amplitude: None, rounding: &unasked };
+    let exact = RequiredAccuracy { rounding: &rounding, ..any };
     let mut quantities = plain.quantities.clone();
     let amplitude;
     let accuracy = match form {
@@ -108,7 +108,7 @@ pub fn simplify(
             let all = only(&by_all_routes, others);
             quantities.extend(cheapest(graph, &all, &relations, exact));
             amplitude = Amplitude::find(graph, model);
-            let accuracy = Accuracy { amplitude: amplitude.as_ref(), ..exact };
+            let accuracy = RequiredAccuracy { amplitude: amplitude.as_ref(), ..exact };
             let rewritten = rewritten(graph, model, &relations, accuracy, of_strain);
             let rewritten = rewritten.unwrap_or_default();
             let derived = only(&by_gradient, |quantity| {
@@ -161,7 +161,7 @@ fn cheapest<K: Ord + Copy>(
     graph: &mut Graph,
     derived: &[Components<K>],
     relations: &Relations,
-    accuracy: Accuracy<'_>,
+    accuracy: RequiredAccuracy<'_>,
 ) -> Components<K> {
     let all = |graph: &mut Graph, derived: &_| candidates(graph, derived, relations);
     cheapest_of(graph, derived, all, accuracy)
@@ -172,7 +172,7 @@ fn cheapest_of<K: Ord + Copy>(
     graph: &mut Graph,
     derived: &[Components<K>],
     candidates: impl Fn(&mut Graph, &Components<K>) -> Vec<Candidate<K>>,
-    accuracy: Accuracy<'_>,
+    accuracy: RequiredAccuracy<'_>,
 ) -> Components<K> {
     let Some(first) = derived.first() else { return Components::new() };
     if graph.work().is_over() {
@@ -188,7 +188,7 @@ fn rewritten(
     graph: &mut Graph,
     model: &Model,
     relations: &Relations,
-    accuracy: Accuracy<'_>,
+    accuracy: RequiredAccuracy<'_>,
     wanted: impl Fn(Quantity) -> bool,
 ) -> Option<Quantities> {
     let amplitude = accuracy.amplitude;
@@ -211,7 +211,7 @@ fn preferred(
     graph: &Graph,
     mut rewritten: Quantities,
     usual: &Quantities,
-    accuracy: Accuracy<'_>,
+    accuracy: RequiredAccuracy<'_>,
 ) -> Quantities {
     rewritten.retain(|quantity, rewritten| {
         let mut ways = vec![&rewritten[..]];
@@ -227,7 +227,7 @@ fn repair(
     graph: &mut Graph,
     model: &Model,
     relations: &Relations,
-    accuracy: Accuracy<'_>,
+    accuracy: RequiredAccuracy<'_>,
     quantities: &mut Quantities,
     others: impl Fn(Quantity) -> bool,
 ) {
@@ -251,7 +251,7 @@ fn repair(
         let bent = graph.attempt(bent).flatten();
         of_second_order.extend(bent.map(|components| (quantity, components)));
     }
-    let exact = Accuracy { amplitude: None, ..accuracy };
+    let exact = RequiredAccuracy { amplitude: None, ..accuracy };
     quantities.extend(cheapest_of(graph, &[of_second_order], unexpanded, exact));
 }
 
@@ -307,13 +307,13 @@ pub fn twins(
 ) -> (Derivation, Derivation) {
     let [plain, simplified] = [plain, simplified].map(|inner| rigid.compose(graph, inner));
     let derived = [plain.quantities.clone(), simplified.quantities];
-    let any = Accuracy { amplitude: None, rounding: &Rounding::default() };
+    let any = RequiredAccuracy { amplitude: None, rounding: &Rounding::default() };
     let quantities = cheapest(graph, &derived, &Relations::default(), any);
     (plain, Derivation { quantities, responses: simplified.responses })
 }
 
 /// Components with the parts of X and of t separated, if that pays and is as exact.
-fn parted(graph: &mut Graph, components: Vec<Expr>, accuracy: Accuracy<'_>) -> Vec<Expr> {
+fn parted(graph: &mut Graph, components: Vec<Expr>, accuracy: RequiredAccuracy<'_>) -> Vec<Expr> {
     let is_better = |graph: &Graph, parted: &[Expr]| {
         let is_worth_it = cost(graph, &components).is_worth(cost(graph, parted));
         is_worth_it && accuracy.allows(graph, &components, parted)
@@ -326,7 +326,7 @@ fn parted(graph: &mut Graph, components: Vec<Expr>, accuracy: Accuracy<'_>) -> V
 
 /// Components with one number instead of two that differ by a constant, and with constants added up, if that pays where
 /// additions of products are free, and is as exact.
-fn fused(graph: &mut Graph, components: Vec<Expr>, accuracy: Accuracy<'_>) -> Vec<Expr> {
+fn fused(graph: &mut Graph, components: Vec<Expr>, accuracy: RequiredAccuracy<'_>) -> Vec<Expr> {
     let shifted = graph.attempt(|graph| shift(graph, &components));
     let shifted = shifted.filter(|shifted| *shifted != components);
     let shifted = shifted.map(|shifted| unexpanded(graph, &SortedMap::from([((), shifted)])));
@@ -364,7 +364,7 @@ mod tests {
             [(b, w), (c, square)].map(|(factor, number)| graph.mul(factor, number));
         let second = graph.sum([a, second, third].map(|term| (term, Rational::ONE)));
         let before = vec![first, second];
-        let any = Accuracy { amplitude: None, rounding: &Rounding::default() };
+        let any = RequiredAccuracy { amplitude: None, rounding: &Rounding::default() };
         let after = fused(&mut graph, before.clone(), any);
         let [before, after] = [before, after].map(|components| steps(&graph, &components));
         // x^2, w, w y and two steps for the sum; then x^2 - 2, w y, and (b + c) w + (a + 2 c).

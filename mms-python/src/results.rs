@@ -35,7 +35,7 @@ impl Level {
         X: Option<&Bound<'_, PyAny>>,
         u: Option<&Bound<'_, PyAny>>,
         t: Option<f64>,
-        cells: Option<Vec<(CellType, Bound<'_, PyAny>)>>,
+        cells: Option<Vec<(Kind, Bound<'_, PyAny>)>>,
         quantities: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Level> {
         if let Some(h) = h.filter(|h| !(h.is_finite() && *h > 0.0)) {
@@ -130,7 +130,7 @@ fn all<T: Precision + Into<f64>>(array: &PyReadonlyArrayDyn<'_, T>) -> Vec<f64> 
 
 /// A type of cells.
 #[derive(FromPyObject)]
-enum CellType {
+enum Kind {
     /// The number in VTK.
     #[pyo3(transparent)]
     Number(u8),
@@ -139,12 +139,12 @@ enum CellType {
     Name(String),
 }
 
-impl CellType {
+impl Kind {
     /// The number in VTK.
     fn number(&self) -> PyResult<u8> {
         let name = match self {
-            CellType::Number(number) => return Ok(*number),
-            CellType::Name(name) => name,
+            Kind::Number(number) => return Ok(*number),
+            Kind::Name(name) => name,
         };
         let known = KINDS.iter().find(|(it, _)| it == name);
         known.map(|(_, number)| *number).ok_or_else(|| {
@@ -174,7 +174,7 @@ const KINDS: [(&str, u8); 15] = [
 ];
 
 /// The cells of a mesh with this number of points.
-fn mesh(given: &[(CellType, Bound<'_, PyAny>)], points: usize) -> PyResult<Cells> {
+fn mesh(given: &[(Kind, Bound<'_, PyAny>)], points: usize) -> PyResult<Cells> {
     let mut cells = Cells::default();
     for (kind, connectivity) in given {
         let kind = kind.number()?;

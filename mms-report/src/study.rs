@@ -12,7 +12,7 @@ use mms_files::write::{pretty, write_files};
 use mms_judge::norms_judged;
 use mms_judge::results::Exclusions;
 use mms_options::method::Arithmetic;
-use mms_runtime::study::{Deviations, ObservedOrders, Point, Refinement, Series};
+use mms_runtime::study::{Deviations, ObservedOrders, Refinement, Series, StudyPoint};
 use mms_runtime::{Division, Errors, Method, Refusal, Run, StudyLevel};
 use mms_spec::foreign::Foreign;
 
@@ -144,7 +144,7 @@ fn is_noise(row: &documents::Level) -> bool {
 }
 
 /// The orders from the point before, if there is one.
-fn orders(point: &Point, before: Option<Point>) -> ObservedOrders {
+fn orders(point: &StudyPoint, before: Option<StudyPoint>) -> ObservedOrders {
     before.map_or_else(ObservedOrders::default, |before| point.orders_from(&before))
 }
 
@@ -168,7 +168,7 @@ pub(super) fn norms(errors: Option<Errors>, observed: ObservedOrders) -> LevelEr
 }
 
 /// The difference of two levels.
-fn difference((point, observed): (Point, ObservedOrders)) -> documents::LevelDifference {
+fn difference((point, observed): (StudyPoint, ObservedOrders)) -> documents::LevelDifference {
     documents::LevelDifference { time_step: point.length, errors: norms(point.errors, observed) }
 }
 
@@ -218,7 +218,7 @@ impl Study {
     fn quantities(&self) -> [(&'static str, &'static str, Vec<ErrorsAndOrders>); 4] {
         let names = quantities(&Deviations::default());
         std::array::from_fn(|which| {
-            let point = |run: &Run| Point {
+            let point = |run: &Run| StudyPoint {
                 length: self.refinement.length(&run.level),
                 errors: run.details.as_ref().map(|it| quantities(&it.largest)[which].2),
                 floor: 0.0,
@@ -234,7 +234,7 @@ impl Study {
     }
 
     /// The difference of each level from the next, and the orders between them.
-    fn steps(&self) -> Option<Vec<(Point, ObservedOrders)>> {
+    fn steps(&self) -> Option<Vec<(StudyPoint, ObservedOrders)>> {
         let points = self.differences.as_ref()?.points();
         let before = std::iter::once(None).chain(points.iter().copied().map(Some));
         Some(
@@ -247,7 +247,7 @@ impl Study {
     }
 
     /// The judged errors: of the levels that were started, or in time the differences of successive levels.
-    pub(super) fn points(&self) -> Vec<Point> {
+    pub(super) fn points(&self) -> Vec<StudyPoint> {
         match &self.differences {
             Some(differences) => differences.points().to_vec(),
             None => self.started().map(|run| self.refinement.displacement(run)).collect(),
@@ -275,7 +275,7 @@ impl Study {
         let judged = self.levels.iter().take(self.names_of_levels().len());
         judged
             .map(|level| match level.as_ref().ok().and_then(|_| points.next()) {
-                Some(Point { errors: Some(errors), .. }) => format!("{:.2e}", errors.l2),
+                Some(StudyPoint { errors: Some(errors), .. }) => format!("{:.2e}", errors.l2),
                 Some(_) => "stopped".into(),
                 None => "not started".into(),
             })
@@ -386,7 +386,7 @@ impl Study {
         table
     }
 
-    fn differences_table(&self, steps: &[(Point, ObservedOrders)]) -> TextTable {
+    fn differences_table(&self, steps: &[(StudyPoint, ObservedOrders)]) -> TextTable {
         let header = ["time step", "to the next: l1", PAIR, "l2", PAIR, "linf", PAIR];
         let caption = format!("{}: differences to the next level", self.field.shown());
         let mut table = TextTable::new(caption, header).right_from(0);

@@ -133,7 +133,7 @@ pub(crate) fn refused(kind: u8, points: usize) -> Option<String> {
             "a cell of Bezier, type {kind} of VTK, is not read, since its points are control points: write it as one of \
              Lagrange, with values at its nodes"
         )),
-        68..=73 if Shape::of(kind, points).is_none() => Some(format!(
+        68..=73 if CellShape::of(kind, points).is_none() => Some(format!(
             "a cell of Lagrange, type {kind} of VTK, with {points} points is not read: expected the same degree along all \
              axes, {} at most",
             lagrange::MOST
@@ -144,7 +144,7 @@ pub(crate) fn refused(kind: u8, points: usize) -> Option<String> {
 
 /// A kind of cell.
 #[derive(Debug)]
-pub struct Shape {
+pub struct CellShape {
     kind: u8,
     /// The dimension of the cell.
     pub dimension: usize,
@@ -158,7 +158,8 @@ pub struct Shape {
     edges: Vec<[usize; 2]>,
 }
 
-static SHAPES: LazyLock<Vec<Shape>> = LazyLock::new(|| ROWS.iter().map(Shape::of_row).collect());
+static SHAPES: LazyLock<Vec<CellShape>> =
+    LazyLock::new(|| ROWS.iter().map(CellShape::of_row).collect());
 
 /// The position of the shape with a number in VTK.
 static BY_KIND: LazyLock<[Option<usize>; 256]> = LazyLock::new(|| {
@@ -166,52 +167,61 @@ static BY_KIND: LazyLock<[Option<usize>; 256]> = LazyLock::new(|| {
 });
 
 /// Shapes that are made on first use: Lagrange cells by kind and degree, and polygons by the number of corners.
-static LAGRANGE: [[OnceLock<Shape>; lagrange::MOST + 1]; lagrange::KINDS] =
+static LAGRANGE: [[OnceLock<CellShape>; lagrange::MOST + 1]; lagrange::KINDS] =
     [const { [const { OnceLock::new() }; lagrange::MOST + 1] }; lagrange::KINDS];
-static POLYGONS: [OnceLock<Shape>; MOST_SIDES + 1] = [const { OnceLock::new() }; MOST_SIDES + 1];
+static POLYGONS: [OnceLock<CellShape>; MOST_SIDES + 1] =
+    [const { OnceLock::new() }; MOST_SIDES + 1];
 
-impl Shape {
+impl CellShape {
     /// The shape of this VTK type with this number of points, if it is known.
-    pub fn of(kind: u8, points: usize) -> Option<&'static Shape> {
+    pub fn of(kind: u8, points: usize) -> Option<&'static CellShape> {
         // Meshes have as many cells as points, but few kinds.
         if let Some(at) = BY_KIND[usize::from(kind)] {
             return Some(&SHAPES[at]).filter(|it| it.nodes.len() == points);
         }
         if let Some(at) = lagrange::position(kind) {
             let degree = lagrange::degree(at, points)?;
-            return Some(LAGRANGE[at][degree].get_or_init(|| Shape::lagrange(at, degree)));
+            return Some(LAGRANGE[at][degree].get_or_init(|| CellShape::lagrange(at, degree)));
         }
         match (kind, points) {
-            (7, 3) => Shape::of(5, points),
-            (7, 4) => Shape::of(9, points),
-            (7, 5..=MOST_SIDES) => Some(POLYGONS[points].get_or_init(|| Shape::polygon(points))),
+            (7, 3) => CellShape::of(5, points),
+            (7, 4) => CellShape::of(9, points),
+            (7, 5..=MOST_SIDES) => {
+                Some(POLYGONS[points].get_or_init(|| CellShape::polygon(points)))
+            }
             _ => None,
         }
     }
 
     /// All shapes with a fixed number of points.
-    pub fn all() -> impl Iterator<Item = &'static Shape> {
+    pub fn all() -> impl Iterator<Item = &'static CellShape> {
         SHAPES.iter()
     }
 
-    fn of_row(&(kind, dimension, corners, between, space): &CellType) -> Shape {
+    fn of_row(&(kind, dimension, corners, between, space): &CellType) -> CellShape {
         let middle = |of: &&[usize]| {
             std::array::from_fn(|axis| {
                 of.iter().map(|&corner| corners[corner][axis]).sum::<f64>() / of.len() as f64
             })
         };
         let nodes = corners.iter().copied().chain(between.iter().map(middle)).collect();
-        Shape::new(kind, dimension, nodes, corners.len(), space)
+        CellShape::new(kind, dimension, nodes, corners.len(), space)
     }
 
-    fn new(kind: u8, dimension: usize, nodes: Vec<Local>, corners: usize, space: Space) -> Shape {
+    fn new(
+        kind: u8,
+        dimension: usize,
+        nodes: Vec<Local>,
+        corners: usize,
+        space: Space,
+    ) -> CellShape {
         let functions = space.functions(dimension, &nodes);
         let (form, degrees) = (space.form(), space.degrees());
         let edges = edges(form, &nodes[..corners]);
-        Shape { kind, dimension, nodes, corners, form, degrees, functions, edges }
+        CellShape { kind, dimension, nodes, corners, form, degrees, functions, edges }
     }
 
-    fn lagrange(at: usize, degree: usize) -> Shape {
+    fn lagrange(at: usize, degree: usize) -> CellShape {
         let n = degree as u32;
         let (space, dimension, corners) = [
             (Space::Product([n; 3]), 1, 2),
@@ -223,10 +233,10 @@ impl Shape {
         ][at];
         let nodes = lagrange::nodes(at, degree).into_iter();
         let nodes = nodes.map(|it| it.map(|steps| steps as f64 / f64::from(n))).collect();
-        Shape::new(68 + at as u8, dimension, nodes, corners, space)
+        CellShape::new(68 + at as u8, dimension, nodes, corners, space)
     }
 
-    fn polygon(corners: usize) -> Shape {
+    fn polygon(corners: usize) -> CellShape {
         let corner = |at: usize| {
             let (sin, cos) = (std::f64::consts::TAU * at as f64 / corners as f64).sin_cos();
             [(1.0 + cos) / 2.0, (1.0 + sin) / 2.0, 0.0]
@@ -234,7 +244,7 @@ impl Shape {
         let nodes: Vec<Local> = (0..corners).map(corner).collect();
         let (form, functions, degrees) = (Form::Polygon, Functions::None, [0; 3]);
         let edges = edges(form, &nodes);
-        Shape { kind: 7, dimension: 2, nodes, corners, form, degrees, functions, edges }
+        CellShape { kind: 7, dimension: 2, nodes, corners, form, degrees, functions, edges }
     }
 
     /// The number in VTK.
@@ -366,7 +376,7 @@ mod tests {
     use super::*;
 
     /// The integral of x^a y^b z^c over a unit cube, or over a simplex: a! b! c!/(a + b + c + D)!.
-    fn integral(shape: &Shape, [a, b, c]: [u32; 3]) -> f64 {
+    fn integral(shape: &CellShape, [a, b, c]: [u32; 3]) -> f64 {
         let factorial = |n: u32| (1..=n).map(f64::from).product::<f64>();
         match shape.form {
             Form::Simplex => {
@@ -379,12 +389,12 @@ mod tests {
     }
 
     /// All kinds, including Lagrange cells up to degree 6.
-    fn shapes() -> impl Iterator<Item = &'static Shape> {
+    fn shapes() -> impl Iterator<Item = &'static CellShape> {
         let lagrange = (0..lagrange::KINDS).flat_map(|at| {
-            let of = move |n| Shape::of(68 + at as u8, lagrange::nodes(at, n).len()).unwrap();
+            let of = move |n| CellShape::of(68 + at as u8, lagrange::nodes(at, n).len()).unwrap();
             (1..=6).map(of)
         });
-        Shape::all().chain(lagrange)
+        CellShape::all().chain(lagrange)
     }
 
     #[test]
@@ -426,7 +436,7 @@ mod tests {
         for (at, most) in [(0, 10), (1, 10), (2, 10), (3, 10), (4, 8), (5, 8)] {
             let mut off = 0.0_f64;
             for n in 1..=most {
-                let shape = Shape::of(68 + at as u8, lagrange::nodes(at, n).len()).unwrap();
+                let shape = CellShape::of(68 + at as u8, lagrange::nodes(at, n).len()).unwrap();
                 let exact = |x: &Local| (0.4 + 0.3 * x[0] - 0.5 * x[1] + 0.2 * x[2]).powi(n as i32);
                 let place = [0.31, 0.22, 0.13];
                 let place = [0, 1, 2].map(|it| if it < shape.dimension { place[it] } else { 0.0 });
@@ -472,19 +482,19 @@ mod tests {
 
     #[test]
     fn edges_are_as_many_as_they_should_be() {
-        let of = |kind| Shape::all().find(|it| it.kind == kind).unwrap();
+        let of = |kind| CellShape::all().find(|it| it.kind == kind).unwrap();
         let edges = |kind| of(kind).edges().len();
         assert_eq!([3, 5, 9, 8, 10, 12, 11, 25].map(edges), [1, 3, 4, 4, 6, 12, 12, 12]);
         assert_eq!([13, 14].map(edges), [9, 8]);
-        assert_eq!(Shape::of(7, 6).unwrap().edges().len(), 6);
-        let cubic = Shape::of(72, 64).unwrap();
+        assert_eq!(CellShape::of(7, 6).unwrap().edges().len(), 6);
+        let cubic = CellShape::of(72, 64).unwrap();
         assert_eq!((cubic.edges().len(), cubic.between([2, 6])), (12, vec![28, 29]));
     }
 
     /// The functions over x and y of the pyramid itself, where they are rational.
     #[test]
     fn functions_of_a_pyramid_are_those_of_bedrosian() {
-        let pyramid = Shape::of(14, 5).unwrap();
+        let pyramid = CellShape::of(14, 5).unwrap();
         for [x, y, z] in [[0.1, 0.2, 0.3], [0.0, 0.6, 0.4], [0.05, 0.01, 0.9]] {
             let found = pyramid.values([x / (1.0 - z), y / (1.0 - z), z]);
             let (right, behind) = (1.0 - z - x, 1.0 - z - y);

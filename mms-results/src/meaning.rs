@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::axes::Axes;
-use crate::cell::Shape;
+use crate::cell::CellShape;
 use crate::norm::largest_if_finite;
 use crate::role::{Form, Role};
 use crate::{Array, Mistake, Snapshot, Stored};
@@ -491,7 +491,7 @@ impl Meaning {
 /// the error is its position.
 fn largest_of_cells(snapshot: &Snapshot, numbers: &[f64], components: usize) -> Result<f64, usize> {
     let shape = |(kind, points): (u8, &[usize])| {
-        Shape::of(kind, points.len()).map_or(UNKNOWN, |shape| shape.dimension)
+        CellShape::of(kind, points.len()).map_or(UNKNOWN, |shape| shape.dimension)
     };
     let dimensions: Vec<usize> = snapshot.cells.iter().map(shape).collect();
     let most = dimensions.iter().copied().max().unwrap_or(UNKNOWN);

@@ -1,7 +1,7 @@
 //! A mesh: its cells of full dimension, their sizes and middles, and edges that belong to one cell alone.
 
 use crate::Cells;
-use crate::cell::{Shape, gauss};
+use crate::cell::{CellShape, gauss};
 use crate::norm::length;
 
 /// A mesh in the reference configuration.
@@ -19,10 +19,10 @@ pub struct Mesh<'a> {
 
 impl<'a> Mesh<'a> {
     /// The cells of the dimension of the mesh, with their positions.
-    pub fn full(&self) -> impl Iterator<Item = (usize, &'static Shape, &'a [usize])> {
+    pub fn full(&self) -> impl Iterator<Item = (usize, &'static CellShape, &'a [usize])> {
         let dimension = self.dimension;
         self.cells.iter().enumerate().filter_map(move |(cell, (kind, points))| {
-            let shape = Shape::of(kind, points.len()).filter(|it| it.dimension == dimension)?;
+            let shape = CellShape::of(kind, points.len()).filter(|it| it.dimension == dimension)?;
             Some((cell, shape, points))
         })
     }
@@ -31,7 +31,7 @@ impl<'a> Mesh<'a> {
     pub fn unknown(&self) -> Option<u8> {
         let lines = [1, 2, 4];
         let is_unknown = |(kind, points): &(u8, &[usize])| {
-            !lines.contains(kind) && Shape::of(*kind, points.len()).is_none()
+            !lines.contains(kind) && CellShape::of(*kind, points.len()).is_none()
         };
         self.cells.iter().find(is_unknown).map(|(kind, _)| kind)
     }
@@ -52,7 +52,7 @@ impl<'a> Mesh<'a> {
 
     /// The shortest and the longest of the longest edges of the cells; `None` without cells of full dimension.
     pub fn sizes(&self) -> Option<[f64; 2]> {
-        let longest = |(_, shape, points): (usize, &'static Shape, &[usize])| {
+        let longest = |(_, shape, points): (usize, &'static CellShape, &[usize])| {
             let edges = shape.edges().iter();
             edges
                 .map(|&[a, b]| length(self.point(points[a]), self.point(points[b])))
@@ -67,7 +67,7 @@ impl<'a> Mesh<'a> {
     /// X at the middle of the reference cell, for all cells of full dimension; for polygons at the centre of area.
     pub fn middles(&self) -> Vec<f64> {
         // Most cells have the same shape as the one before.
-        let mut last: Option<(&Shape, Vec<f64>)> = None;
+        let mut last: Option<(&CellShape, Vec<f64>)> = None;
         let mut all = Vec::new();
         for (_, shape, points) in self.full() {
             if !shape.has_functions() {
@@ -154,7 +154,7 @@ impl<'a> Mesh<'a> {
 /// The area that the ray from the origin to an edge in a plane sweeps, by X of its ends and of the nodes between them: half the
 /// integral of x dy - y dx.
 pub fn swept(edge: &[&[f64]]) -> f64 {
-    let Some(shape) = Shape::of(68, edge.len()) else { return 0.0 };
+    let Some(shape) = CellShape::of(68, edge.len()) else { return 0.0 };
     let sum = |values: &[f64], axis: usize| -> f64 {
         values.iter().zip(edge).map(|(value, x)| value * x[axis]).sum()
     };

@@ -22,7 +22,7 @@ pub struct Motion<'a> {
 }
 
 /// The body in the reference configuration.
-pub trait Body {
+pub trait ReferenceBody {
     /// The distance of a point from the body; 0 within it.
     fn distance(&self, point: &[f64]) -> f64;
 
@@ -32,7 +32,7 @@ pub trait Body {
     }
 }
 
-impl<F: Fn(&[f64]) -> f64> Body for F {
+impl<F: Fn(&[f64]) -> f64> ReferenceBody for F {
     fn distance(&self, point: &[f64]) -> f64 {
         self(point)
     }
@@ -51,7 +51,7 @@ pub fn resolve<'a>(
     snapshot: &'a Snapshot,
     meanings: &[Meaning],
     dimension: usize,
-    body: &dyn Body,
+    body: &dyn ReferenceBody,
     back: Option<Back<'_>>,
 ) -> Result<Motion<'a>, Mistake> {
     let of = |role: Role| meanings.iter().find(|meaning| meaning.role == role);
@@ -138,7 +138,7 @@ impl<'a> Known<'a> {
     }
 
     /// X and u of a rotating body, whose points are X by default.
-    fn resolve_with_swirl(self, body: &dyn Body) -> Result<Motion<'a>, Mistake> {
+    fn resolve_with_swirl(self, body: &dyn ReferenceBody) -> Result<Motion<'a>, Mistake> {
         let (snapshot, path) = (self.snapshot, &self.snapshot.path);
         let found = match (self.reference, self.place) {
             (Some(x), _) => Some((x, "X as given")),
@@ -158,7 +158,7 @@ impl<'a> Known<'a> {
     fn motion(
         &self,
         (reference, displacement): (Option<Values<'a>>, Option<Values<'a>>),
-        body: &dyn Body,
+        body: &dyn ReferenceBody,
         back: Option<Back<'_>>,
     ) -> Result<Motion<'a>, Mistake> {
         match (reference, &self.position, &self.place, displacement) {
@@ -220,7 +220,7 @@ impl<'a> Known<'a> {
     fn resolve_without_u(
         &self,
         place: &Values<'a>,
-        body: &dyn Body,
+        body: &dyn ReferenceBody,
         back: Back<'_>,
     ) -> Result<Motion<'a>, Mistake> {
         if stray(place, body).is_some() {
@@ -273,7 +273,7 @@ impl<'a> Known<'a> {
         &self,
         place: Values<'a>,
         u: Values<'a>,
-        body: &dyn Body,
+        body: &dyn ReferenceBody,
     ) -> Result<Motion<'a>, Mistake> {
         let back = difference(&place, &u);
         match (stray(&place, body), stray(&back, body)) {
@@ -382,7 +382,7 @@ fn is_moved(place: &Values<'_>, reference: &Values<'_>) -> bool {
 }
 
 /// The first point outside the body by more than its rounding, and its distance.
-fn stray(reference: &Values<'_>, body: &dyn Body) -> Option<(usize, f64)> {
+fn stray(reference: &Values<'_>, body: &dyn ReferenceBody) -> Option<(usize, f64)> {
     let points = reference.numbers.chunks(reference.components).enumerate();
     // Each coordinate may be off by its rounding, and so may the bound of the body.
     let most = 4.0 * reference.rounding;
@@ -392,7 +392,7 @@ fn stray(reference: &Values<'_>, body: &dyn Body) -> Option<(usize, f64)> {
 fn validate_inside(
     snapshot: &Snapshot,
     motion: &Motion<'_>,
-    body: &dyn Body,
+    body: &dyn ReferenceBody,
 ) -> Result<(), Mistake> {
     let reference = &motion.reference;
     let Some((at, distance)) = stray(reference, body) else { return Ok(()) };

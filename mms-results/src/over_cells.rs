@@ -8,7 +8,7 @@
 //! evaluated where the polynomials have their largest values.
 
 use crate::Mistake;
-use crate::cell::{Local, Shape, gauss};
+use crate::cell::{CellShape, Local, gauss};
 use crate::mesh::Mesh;
 use crate::norm::{Norms, lengths};
 
@@ -78,7 +78,7 @@ const SHRINKS: f64 = 0.7;
 type Matrix = [[f64; 3]; 3];
 
 /// The functions of a kind of cell at a quadrature point.
-struct Point {
+struct QuadraturePoint {
     weight: f64,
     /// The ratio of a volume in the reference cell to the volume in the unit cube, at the point.
     factor: f64,
@@ -89,8 +89,8 @@ struct Point {
 
 /// A kind of cell with its quadrature, and with matrices for interpolation along an axis.
 struct QuadratureRule {
-    shape: &'static Shape,
-    points: Vec<Point>,
+    shape: &'static CellShape,
+    points: Vec<QuadraturePoint>,
     fine: Interpolation,
     ends: Interpolation,
     /// The number of parts of an axis in the search for the maximum.
@@ -99,7 +99,7 @@ struct QuadratureRule {
 
 impl QuadratureRule {
     /// A rule with `count` points along an axis.
-    fn new(shape: &'static Shape, count: usize) -> Self {
+    fn new(shape: &'static CellShape, count: usize) -> Self {
         let (dimension, along) = (shape.dimension, gauss(count));
         let knots: Vec<f64> = along.iter().map(|it| it.0).collect();
         let finer = (shape.highest() as usize).div_ceil(2).max(1);
@@ -121,7 +121,7 @@ impl QuadratureRule {
                 false => Vec::new(),
             };
             let slopes = [slopes(0), slopes(1), slopes(2)];
-            Point { weight, factor, functions: shape.values(at), slopes }
+            QuadraturePoint { weight, factor, functions: shape.values(at), slopes }
         };
         QuadratureRule {
             shape,
@@ -133,7 +133,7 @@ impl QuadratureRule {
     }
 
     /// The position of a kind of cell in the list of known ones, to which it is added if it is new.
-    fn among(known: &mut Vec<QuadratureRule>, shape: &'static Shape, count: usize) -> usize {
+    fn among(known: &mut Vec<QuadratureRule>, shape: &'static CellShape, count: usize) -> usize {
         let found = known.iter().position(|it| std::ptr::eq(it.shape, shape));
         found.unwrap_or_else(|| {
             known.push(QuadratureRule::new(shape, count));
@@ -279,7 +279,7 @@ impl Mesh<'_> {
         // The values at a point, and their derivatives along the axes of the cell.
         let mut sums = vec![0.0; 4 * size];
         let mut sign = 0.0;
-        for Point { weight, factor, functions, slopes } in &rule.points {
+        for QuadraturePoint { weight, factor, functions, slopes } in &rule.points {
             sums.fill(0.0);
             let by = [functions, &slopes[0], &slopes[1], &slopes[2]];
             for (by, sums) in by.into_iter().zip(sums.chunks_exact_mut(size)) {

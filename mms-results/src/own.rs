@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use crate::cell::Shape;
+use crate::cell::CellShape;
 use crate::snapshot::GHOSTS;
 use crate::{Array, Cells, Mistake, Snapshot};
 
@@ -44,7 +44,7 @@ pub fn keep(snapshot: &mut Snapshot) -> Result<LeftOut, Mistake> {
 /// Marks the points that belong to no cell, such as the centre of an arc. All points count without cells, and with vertices and
 /// lines alone, which may accompany particles.
 fn unused(snapshot: &Snapshot) -> Vec<bool> {
-    let is_of_body = |(kind, points): (u8, &[usize])| match Shape::of(kind, points.len()) {
+    let is_of_body = |(kind, points): (u8, &[usize])| match CellShape::of(kind, points.len()) {
         Some(shape) => shape.dimension > 1,
         None => !matches!(kind, 1 | 2 | 4),
     };
@@ -152,7 +152,7 @@ fn doubled(snapshot: &Snapshot) -> Result<Vec<bool>, Mistake> {
         place(point).iter().fold(1, mix)
     };
     let all: Vec<(u8, &[usize])> = snapshot.cells.iter().collect();
-    let is_known = |(kind, points): (u8, &[usize])| Shape::of(kind, points.len()).is_some();
+    let is_known = |(kind, points): (u8, &[usize])| CellShape::of(kind, points.len()).is_some();
     let known = all.iter().enumerate().filter(|(_, cell)| is_known(**cell));
     let sum =
         |points: &[usize]| points.iter().fold(0, |sum: u64, &it| sum.wrapping_add(digest(it)));

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use mms_results::cell::Shape;
+use mms_results::cell::CellShape;
 use mms_results::motion::{Motion, resolve, validate_distinct};
 use mms_results::names::{KNOWN, Mapping, Names, Role, everything, recognise, wanted};
 use mms_results::{Contents, Mistake, Snapshot, Stored, parse, read};
@@ -132,7 +132,7 @@ fn nodes_are_where_vtk_has_them() {
         assert_eq!(shape.nodes.as_flattened(), &numbers[1..], "{}", shape.kind());
         count += 1;
     }
-    assert_eq!(count, Shape::all().count());
+    assert_eq!(count, CellShape::all().count());
 }
 
 /// A mesh of one line whose points have no places.

@@ -23,6 +23,6 @@ mod write;
 mod xdmf;
 
 /// The shape of a VTK type.
-fn shape(kind: u8) -> &'static mms_results::cell::Shape {
-    mms_results::cell::Shape::all().find(|it| it.kind() == kind).unwrap()
+fn shape(kind: u8) -> &'static mms_results::cell::CellShape {
+    mms_results::cell::CellShape::all().find(|it| it.kind() == kind).unwrap()
 }

@@ -1,7 +1,7 @@
 //! Compares norms with sums and quadratures computed in another way.
 
 use mms_results::Cells;
-use mms_results::cell::{Local, Shape};
+use mms_results::cell::{CellShape, Local};
 use mms_results::comparison::Comparison;
 use mms_results::mesh::Mesh;
 use mms_results::norm::{largest, lengths, of_differences, over_points};
@@ -107,7 +107,7 @@ fn local(place: &[f64]) -> Local {
 }
 
 impl One {
-    fn new(shape: &Shape) -> Self {
+    fn new(shape: &CellShape) -> Self {
         let (dimension, count) = (shape.dimension, shape.nodes.len());
         let cells =
             Cells { types: vec![shape.kind()], points: (0..count).collect(), ends: vec![count] };
@@ -159,7 +159,7 @@ const PYRAMID: u8 = 14;
 
 /// Converts coordinates of the corners to those in which the functions of a cell are known: for a pyramid, coordinates in the
 /// cube that is collapsed to it.
-fn known(shape: &Shape, [x, y, z]: Local) -> Local {
+fn known(shape: &CellShape, [x, y, z]: Local) -> Local {
     match shape.kind() {
         PYRAMID => [x / (1.0 - z), y / (1.0 - z), z],
         _ => [x, y, z],
@@ -168,7 +168,7 @@ fn known(shape: &Shape, [x, y, z]: Local) -> Local {
 
 /// Points spread evenly over a reference cell: a grid; on a simplex, the differences of sorted coordinates, which are spread
 /// evenly too; in a pyramid more of them where it is wide.
-fn spread(shape: &Shape, per_edge: usize) -> Vec<Local> {
+fn spread(shape: &CellShape, per_edge: usize) -> Vec<Local> {
     let simplex = match shape.kind() {
         5 | 10 | 22 | 24 | 69 | 71 => shape.dimension,
         WEDGE | 26 | 31 | 32 | 73 => 2,
@@ -200,8 +200,8 @@ fn spread(shape: &Shape, per_edge: usize) -> Vec<Local> {
 #[test]
 fn norms_over_a_cell_are_those_of_a_sum_over_many_points() {
     let lagrange = [(68, 4), (68, 6), (69, 15), (70, 25), (71, 20)];
-    let lagrange = lagrange.map(|(kind, points)| Shape::of(kind, points).unwrap());
-    for shape in sampled(Shape::all().chain(lagrange), SHARE) {
+    let lagrange = lagrange.map(|(kind, points)| CellShape::of(kind, points).unwrap());
+    for shape in sampled(CellShape::all().chain(lagrange), SHARE) {
         let (one, dimension) = (One::new(shape), shape.dimension);
         let values: Vec<f64> = one.points.chunks(dimension).flat_map(smooth).collect();
         let mut asked = |what: SolutionPart, places: &[f64]| Ok(exact(what, places, dimension));
@@ -236,7 +236,7 @@ fn norms_over_a_cell_are_those_of_a_sum_over_many_points() {
 /// A cell with displaced nodes still represents linear functions of X.
 #[test]
 fn what_is_linear_has_no_error_on_any_cell() {
-    for shape in Shape::all() {
+    for shape in CellShape::all() {
         let mut one = One::new(shape);
         let wobble = |(at, x): (usize, &mut f64)| *x += 0.03 * ((7 * at) as f64).sin();
         one.points.iter_mut().enumerate().for_each(wobble);

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use allocation_counter::measure;
-use mms_results::cell::Shape;
+use mms_results::cell::CellShape;
 use mms_results::names::{KNOWN, Role, everything, recognise, wanted};
 use mms_results::{Contents, Mistake, Snapshot, parse};
 
@@ -89,7 +89,7 @@ pub fn survives(name: &str, bytes: &[u8]) {
 
 /// The nodes of a cell of this type in VTK (`vtkQuadraticWedge.h` and others for types that are no shape here).
 pub fn nodes(kind: u8, points: usize) -> Vec<[f64; 3]> {
-    if let Some(shape) = Shape::of(kind, points) {
+    if let Some(shape) = CellShape::of(kind, points) {
         return shape.nodes.clone();
     }
     let corners = if kind == 27 { &PYRAMID[..] } else { &PRISM };

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use mms_results::cell::Shape;
+use mms_results::cell::CellShape;
 use mms_results::mesh::Mesh;
 use mms_results::motion::{Motion, resolve};
 use mms_results::names::{KNOWN, Names, Role, everything, recognise};
@@ -158,7 +158,7 @@ fn nodes_of_higher_degree_are_where_vtk_has_them() {
     let mut count = 0;
     for line in words("steps.txt") {
         let numbers: Vec<f64> = line.iter().map(|it| it.parse().unwrap()).collect();
-        let shape = Shape::of(numbers[0] as u8, numbers[1] as usize).unwrap();
+        let shape = CellShape::of(numbers[0] as u8, numbers[1] as usize).unwrap();
         let n = f64::from(shape.degree());
         let steps: Vec<f64> =
             shape.nodes.as_flattened().iter().map(|it| (it * n).round()).collect();
@@ -173,7 +173,7 @@ fn functions_have_the_values_that_vtk_has() {
     let mut count = 0;
     for line in words("functions.txt") {
         let numbers: Vec<f64> = line.iter().map(|it| it.parse().unwrap()).collect();
-        let shape = Shape::of(numbers[0] as u8, numbers.len() - 1).unwrap();
+        let shape = CellShape::of(numbers[0] as u8, numbers.len() - 1).unwrap();
         let place = [0.3, 0.2, 0.1];
         let place = [0, 1, 2].map(|it| if it < shape.dimension { place[it] } else { 0.0 });
         for (own, theirs) in shape.values(place).iter().zip(&numbers[1..]) {

@@ -1,7 +1,7 @@
 //! Written files are read back to the bit, by readers that are tested on files of meshio, VTK and NumPy (`files.rs`).
 
 use mms_results::names::{Axes, KNOWN, Role, everything, recognise};
-use mms_results::write::{Column, Fact, Mesh, Shape, State, Value, csv, npz, vtu};
+use mms_results::write::{ArrayShape, Column, Fact, Mesh, State, Value, csv, npz, vtu};
 use mms_results::{Cells, Contents, Snapshot, Stored, parse};
 
 const COUNT: usize = 7;
@@ -12,20 +12,20 @@ fn number(seed: usize) -> f64 {
     (seed * 1.234_567_89).sin() * 10f64.powi((seed as i32 * 7) % 19 - 9)
 }
 
-fn column(name: &str, shape: Shape, dimension: usize) -> Column {
+fn column(name: &str, shape: ArrayShape, dimension: usize) -> Column {
     let count = COUNT * shape.components(dimension);
-    let value = |at| if shape == Shape::Whole { at as f64 } else { number(at + name.len()) };
+    let value = |at| if shape == ArrayShape::Whole { at as f64 } else { number(at + name.len()) };
     Column { name: name.into(), shape, values: (0..count).map(value).collect() }
 }
 
 /// A state with the names of tables, and one with the names of VTK.
 fn state(dimension: usize, time: f64, [x, u, f]: [&str; 3]) -> State {
     let columns = vec![
-        column(x, Shape::Vector, dimension),
-        column(u, Shape::Vector, dimension),
-        column(f, Shape::Tensor, dimension),
-        column("volume", Shape::Scalar, dimension),
-        column("particle", Shape::Whole, dimension),
+        column(x, ArrayShape::Vector, dimension),
+        column(u, ArrayShape::Vector, dimension),
+        column(f, ArrayShape::Tensor, dimension),
+        column("volume", ArrayShape::Scalar, dimension),
+        column("particle", ArrayShape::Whole, dimension),
     ];
     let numbers = Value::Numbers(vec![number(0), number(1)]);
     let facts = [("time_window", numbers), ("face_x_min", Value::Word("fixed".into()))];
@@ -104,7 +104,7 @@ fn grids_of_vtk_are_read_back_with_their_cells() {
     let cells = Cells { types: vec![5, 3], points: vec![0, 1, 2, 3, 4], ends: vec![3, 5] };
     for dimension in 1..=3 {
         let state = state(dimension, 0.125, NAMES);
-        let position = column("", Shape::Vector, dimension).values;
+        let position = column("", ArrayShape::Vector, dimension).values;
         for given in [&Cells::default(), &cells] {
             let mut bytes = Vec::new();
             vtu(&state, Mesh { position: &position, cells: given }, &mut bytes).unwrap();

@@ -27,7 +27,7 @@ use crate::real::{Real, Vector};
 use period::Period;
 use prescribed::Prescribed;
 use surface::Surface;
-use traction::{FacePoint, Point, Traction};
+use traction::{FacePoint, Traction, TractionPoint};
 use wall::Wall;
 
 /// The boundary conditions of a scene. A condition that the scene does not have is empty, and costs nothing.
@@ -125,7 +125,7 @@ impl<T: Real, const D: usize> Boundary<T, D> {
         &mut self,
         field: &F,
         time: T,
-        point: Point<'_, T, D>,
+        point: TractionPoint<'_, T, D>,
         place: impl Fn(usize, &Vector<T, D>) -> FacePoint<T, D>,
         share: T,
         extensive: &mut [Nodal<T>],

@@ -11,14 +11,14 @@ use mms_runtime::{
 
 /// Resumes from a checkpoint, writes another, stops there, and records every step.
 #[derive(Default)]
-struct Keeper {
+struct RestartObserver {
     from: Option<Vec<u8>>,
     stop: Option<usize>,
     kept: Vec<u8>,
     records: Vec<Record>,
 }
 
-impl Observer for Keeper {
+impl Observer for RestartObserver {
     fn step(&mut self, _: usize, _: usize) {}
 
     fn records(&self) -> bool {
@@ -50,7 +50,7 @@ fn method(shape: ShapeName, formulation: FormulationName, transfer: Transfer) ->
     Method { shape, formulation, setup, ..Method::default() }
 }
 
-fn run(faces: Condition, method: &Method, keeper: &mut Keeper) -> Result<Run, Refusal> {
+fn run(faces: Condition, method: &Method, keeper: &mut RestartObserver) -> Result<Run, Refusal> {
     f64::run(&Wave::sliding(faces), method, &40.into(), Watch::Everything, keeper)
 }
 
@@ -60,7 +60,7 @@ fn details(run: Run) -> Details {
 
 /// Tests two stops, each on another number of threads.
 fn interrupted(faces: Condition, method: &Method) {
-    let mut straight = Keeper::default();
+    let mut straight = RestartObserver::default();
     let whole = run(faces, method, &mut straight).unwrap();
     let steps = whole.level.steps;
     assert!(whole.level.particles >= 4800, "in one slab nothing is sorted");
@@ -69,7 +69,7 @@ fn interrupted(faces: Condition, method: &Method) {
 
     let (mut from, mut records) = (None, Vec::new());
     for (threads, stop) in [(2, Some(1)), (1, Some(steps / 2)), (3, Some(steps)), (1, None)] {
-        let mut keeper = Keeper { from, stop, ..Keeper::default() };
+        let mut keeper = RestartObserver { from, stop, ..RestartObserver::default() };
         let method = Method { setup: Setup { threads, ..method.setup.clone() }, ..method.clone() };
         let run = run(faces, &method, &mut keeper).unwrap();
         records.append(&mut keeper.records);
@@ -103,14 +103,14 @@ fn an_interrupted_run_ends_with_the_same_bits() {
 
 /// A checkpoint of the middle of a run.
 fn checkpoint(method: &Method) -> Vec<u8> {
-    let mut keeper = Keeper { stop: Some(3), ..Keeper::default() };
+    let mut keeper = RestartObserver { stop: Some(3), ..RestartObserver::default() };
     let run = run(Condition::Prescribed, method, &mut keeper).unwrap();
     assert!(!keeper.kept.is_empty(), "{:?}", run.level.errors);
     keeper.kept
 }
 
 fn refused(from: Vec<u8>, method: &Method) -> String {
-    let mut keeper = Keeper { from: Some(from), ..Keeper::default() };
+    let mut keeper = RestartObserver { from: Some(from), ..RestartObserver::default() };
     match run(Condition::Prescribed, method, &mut keeper) {
         Err(Refusal::NoState { reason }) => reason,
         other => panic!("{other:?}"),

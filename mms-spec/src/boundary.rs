@@ -1,7 +1,7 @@
 //! `[boundary]`: the faces of a body, and the claims of a field on them.
 
 use crate::diagnostic::{Diagnostic, quoted};
-use crate::domain::{Body, is_zero};
+use crate::domain::{BodySpec, is_zero};
 use crate::language::instead_of_claim;
 use crate::source::Spanned;
 use crate::space::Space;
@@ -84,12 +84,12 @@ impl Face {
     }
 
     /// The faces of a body, in a fixed order.
-    pub fn of(body: &Body, space: Space) -> Vec<Face> {
+    pub fn of(body: &BodySpec, space: Space) -> Vec<Face> {
         let mut faces = Face::declared(body, space);
         match body {
-            Body::Round(round) => faces.retain(|face| round.has_area(*face)),
+            BodySpec::Round(round) => faces.retain(|face| round.has_area(*face)),
             // If R is written as 0, the box ends at the axis, which has no area.
-            Body::Box { lower, .. } if lower.first().is_some_and(is_zero) => {
+            BodySpec::Box { lower, .. } if lower.first().is_some_and(is_zero) => {
                 faces.retain(|face| *face != Face::RadialMin);
             }
             _ => {}
@@ -98,14 +98,14 @@ impl Face {
     }
 
     /// The faces that the keys of a body define, including those without an area.
-    fn declared(body: &Body, space: Space) -> Vec<Face> {
+    fn declared(body: &BodySpec, space: Space) -> Vec<Face> {
         match body {
-            Body::Box { .. } => Face::of_box(space),
-            Body::Round(round) => round.declared(),
-            Body::Polygon(polygon) => {
+            BodySpec::Box { .. } => Face::of_box(space),
+            BodySpec::Round(round) => round.declared(),
+            BodySpec::Polygon(polygon) => {
                 polygon.names.iter().enumerate().map(|(at, name)| Face::Edge(at, name)).collect()
             }
-            Body::Nothing => Vec::new(),
+            BodySpec::Nothing => Vec::new(),
         }
     }
 
@@ -187,12 +187,12 @@ pub struct BoundarySpec {
 /// Reads `[boundary]`. Without a body, any face of any body is accepted.
 pub(super) fn boundary<'a>(
     entry: &Entry<'a>,
-    body: Option<&Body>,
+    body: Option<&BodySpec>,
     space: Space,
     reader: &mut Reader<'a>,
 ) -> Vec<BoundarySpec> {
     let Some(table) = reader.open_table(entry, "[boundary]") else { return Vec::new() };
-    if body.is_some_and(Body::is_nothing) {
+    if body.is_some_and(BodySpec::is_nothing) {
         reader.report(
             Diagnostic::error(entry.key.span, "a field without a body has no faces")
                 .label("claims are about faces, and `shape = \"none\"` has none")

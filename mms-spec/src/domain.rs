@@ -15,7 +15,7 @@ use crate::value::{plural, unknown_word};
 
 /// The shape of the reference body.
 #[derive(Clone, Debug)]
-pub enum Body {
+pub enum BodySpec {
     /// A box with edges along the axes.
     Box {
         /// The least coordinates, one per dimension.
@@ -35,7 +35,7 @@ pub enum Body {
 #[derive(Clone, Debug)]
 pub struct Round {
     /// The shape.
-    pub shape: &'static Shape,
+    pub shape: &'static BodyShape,
     /// The inner radius; a disk has none.
     pub inner: Option<Formula>,
     /// The outer radius.
@@ -107,7 +107,7 @@ pub struct Polygon {
 
 /// A shape of a body: its keys in `[domain]`, and the dimension that it needs.
 #[derive(Debug, PartialEq, Eq)]
-pub struct Shape {
+pub struct BodyShape {
     /// The word for the shape in a field file.
     pub name: &'static str,
     /// The word with its article.
@@ -123,8 +123,8 @@ pub struct Shape {
 }
 
 /// The shapes of bodies.
-pub const BODIES: &[Shape] = &[
-    Shape {
+pub const BODIES: &[BodyShape] = &[
+    BodyShape {
         name: "box",
         noun: "a box",
         dimension: None,
@@ -132,7 +132,7 @@ pub const BODIES: &[Shape] = &[
         optional: &[],
         has: "`lower` and `upper`",
     },
-    Shape {
+    BodyShape {
         name: "annulus",
         noun: "an annulus",
         dimension: Some(2),
@@ -140,7 +140,7 @@ pub const BODIES: &[Shape] = &[
         optional: &["theta"],
         has: "`inner`, `outer` and, for a sector, `theta`",
     },
-    Shape {
+    BodyShape {
         name: "disk",
         noun: "a disk",
         dimension: Some(2),
@@ -148,7 +148,7 @@ pub const BODIES: &[Shape] = &[
         optional: &["theta"],
         has: "`outer` and, for a sector, `theta`",
     },
-    Shape {
+    BodyShape {
         name: "cylinder",
         noun: "a cylinder",
         dimension: Some(3),
@@ -156,7 +156,7 @@ pub const BODIES: &[Shape] = &[
         optional: &["theta"],
         has: "`inner`, `outer`, `z` and, for a sector, `theta`",
     },
-    Shape {
+    BodyShape {
         name: "sphere",
         noun: "a sphere",
         dimension: Some(3),
@@ -164,7 +164,7 @@ pub const BODIES: &[Shape] = &[
         optional: &["theta", "phi"],
         has: "`inner`, `outer` and, for a part of it, `theta` and `phi`",
     },
-    Shape {
+    BodyShape {
         name: "polygon",
         noun: "a polygon",
         dimension: Some(2),
@@ -172,7 +172,7 @@ pub const BODIES: &[Shape] = &[
         optional: &["names"],
         has: "`vertices` and, for its edges, `names`",
     },
-    Shape {
+    BodyShape {
         name: "none",
         noun: "a field without a body",
         dimension: None,
@@ -189,9 +189,9 @@ pub const BODY_KEYS: &[&str] =
 /// The largest number of vertices of a polygon.
 pub const MAX_VERTICES: usize = 256;
 
-impl Shape {
+impl BodyShape {
     /// The shape with this name.
-    pub fn named(name: &str) -> Option<&'static Shape> {
+    pub fn named(name: &str) -> Option<&'static BodyShape> {
         BODIES.iter().find(|shape| shape.name == name)
     }
 
@@ -201,29 +201,29 @@ impl Shape {
     }
 }
 
-impl Body {
+impl BodySpec {
     /// The word for the shape in a field file.
     pub fn name(&self) -> &'static str {
         match self {
-            Body::Box { .. } => "box",
-            Body::Round(round) => round.shape.name,
-            Body::Polygon(_) => "polygon",
-            Body::Nothing => "none",
+            BodySpec::Box { .. } => "box",
+            BodySpec::Round(round) => round.shape.name,
+            BodySpec::Polygon(_) => "polygon",
+            BodySpec::Nothing => "none",
         }
     }
 
     /// Whether there is no body.
     pub fn is_nothing(&self) -> bool {
-        matches!(self, Body::Nothing)
+        matches!(self, BodySpec::Nothing)
     }
 
     /// The formulas that define the body.
     pub fn formulas(&self) -> Vec<&Formula> {
         match self {
-            Body::Box { lower, upper } => lower.iter().chain(upper).collect(),
-            Body::Round(round) => round.formulas().collect(),
-            Body::Polygon(polygon) => polygon.vertices.iter().flatten().collect(),
-            Body::Nothing => Vec::new(),
+            BodySpec::Box { lower, upper } => lower.iter().chain(upper).collect(),
+            BodySpec::Round(round) => round.formulas().collect(),
+            BodySpec::Polygon(polygon) => polygon.vertices.iter().flatten().collect(),
+            BodySpec::Nothing => Vec::new(),
         }
     }
 }
@@ -232,7 +232,7 @@ impl Body {
 #[derive(Clone, Debug)]
 pub struct DomainSpec {
     /// The reference body.
-    pub body: Body,
+    pub body: BodySpec,
     /// The first and the last time; none for a static field.
     pub time: Option<[Formula; 2]>,
     /// Whether the window replaces the file's: then a number is in the unit of t.
@@ -242,7 +242,7 @@ pub struct DomainSpec {
 /// A domain without content, in place of one whose absence has been reported.
 pub(super) fn reported(dimension: usize, span: Span) -> DomainSpec {
     let corner = vec![Formula::reported(span); dimension];
-    let body = Body::Box { lower: corner.clone(), upper: corner };
+    let body = BodySpec::Box { lower: corner.clone(), upper: corner };
     let time = Some([Formula::reported(span), Formula::reported(span)]);
     DomainSpec { body, time, is_moved: false }
 }
@@ -255,7 +255,7 @@ pub(super) fn domain<'a>(entry: &Entry<'a>, space: Space, reader: &mut Reader<'a
     };
     let shape = reader.required(&table, "shape");
     let named = shape.as_ref().and_then(|shape| word_of_shape(shape, reader));
-    let shape = named.as_ref().and_then(|named| Shape::named(&named.value));
+    let shape = named.as_ref().and_then(|named| BodyShape::named(&named.value));
     let shape = shape.unwrap_or_else(|| meant(&table, dimension));
     if let (Some(named), Some(needed)) = (&named, shape.dimension)
         && needed != dimension
@@ -274,8 +274,8 @@ pub(super) fn domain<'a>(entry: &Entry<'a>, space: Space, reader: &mut Reader<'a
     }
     let body = match shape.name {
         "box" => cuboid(&table, dimension, reader),
-        "polygon" => Body::Polygon(polygon(&table, reader)),
-        "none" => Body::Nothing,
+        "polygon" => BodySpec::Polygon(polygon(&table, reader)),
+        "none" => BodySpec::Nothing,
         _ => round(&table, shape, reader),
     };
     // A lost or misspelt key is not missing.
@@ -290,8 +290,8 @@ pub(super) fn domain<'a>(entry: &Entry<'a>, space: Space, reader: &mut Reader<'a
 
 /// The word for a shape. A word that is far from all shapes may mean a body that is out of scope.
 fn word_of_shape<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Option<Spanned<String>> {
-    let (found, words) = (reader.string(entry)?, Shape::words());
-    if Shape::named(&found.value).is_some() {
+    let (found, words) = (reader.string(entry)?, BodyShape::words());
+    if BodyShape::named(&found.value).is_some() {
         return Some(found);
     }
     let unknown = unknown_word(&found, "shape", &words);
@@ -302,7 +302,7 @@ fn word_of_shape<'a>(entry: &Entry<'a>, reader: &mut Reader<'a>) -> Option<Spann
 }
 
 /// The shape that the keys indicate, if there is no valid word.
-fn meant(table: &Table<'_>, dimension: usize) -> &'static Shape {
+fn meant(table: &Table<'_>, dimension: usize) -> &'static BodyShape {
     let has = |key: &str| table.get(key).is_some();
     let name = match () {
         () if has("vertices") => "polygon",
@@ -312,10 +312,10 @@ fn meant(table: &Table<'_>, dimension: usize) -> &'static Shape {
         () if has("inner") || has("outer") => "annulus",
         () => "box",
     };
-    Shape::named(name).unwrap_or(&BODIES[0])
+    BodyShape::named(name).unwrap_or(&BODIES[0])
 }
 
-impl Shape {
+impl BodyShape {
     /// Whether the shape has other faces than a box.
     fn is_bent(&self) -> bool {
         !matches!(self.name, "box" | "none")
@@ -326,15 +326,15 @@ impl Shape {
     }
 }
 
-fn cuboid<'a>(table: &Table<'a>, dimension: usize, reader: &mut Reader<'a>) -> Body {
+fn cuboid<'a>(table: &Table<'a>, dimension: usize, reader: &mut Reader<'a>) -> BodySpec {
     let reason = one_per_dimension(dimension);
-    Body::Box {
+    BodySpec::Box {
         lower: reader.required_formulas(table, "lower", dimension, &reason),
         upper: reader.required_formulas(table, "upper", dimension, &reason),
     }
 }
 
-fn round<'a>(table: &Table<'a>, shape: &'static Shape, reader: &mut Reader<'a>) -> Body {
+fn round<'a>(table: &Table<'a>, shape: &'static BodyShape, reader: &mut Reader<'a>) -> BodySpec {
     let is_required = |key: &str| shape.required.contains(&key);
     let inner = is_required("inner").then(|| reader.required_formula(table, "inner"));
     let outer = reader.required_formula(table, "outer");
@@ -351,7 +351,7 @@ fn round<'a>(table: &Table<'a>, shape: &'static Shape, reader: &mut Reader<'a>) 
     let angles = "expected the first and the last angle";
     let (theta, phi) = (pair("theta", angles), pair("phi", angles));
     let z = pair("z", "expected the lower and the upper end");
-    Body::Round(Box::new(Round { shape, inner, outer, theta, z, phi }))
+    BodySpec::Round(Box::new(Round { shape, inner, outer, theta, z, phi }))
 }
 
 fn polygon<'a>(table: &Table<'a>, reader: &mut Reader<'a>) -> Polygon {

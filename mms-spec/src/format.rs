@@ -6,7 +6,7 @@
 //! faces): the reader checks them, and `mms-command/src/schema/conditions.rs` states them for the schema. Tests compare both.
 
 use crate::boundary::{Claim, Face};
-use crate::domain::Shape;
+use crate::domain::BodyShape;
 use crate::names::ReservingFile;
 use crate::quantity::Quantity;
 use crate::space::Space;
@@ -261,7 +261,7 @@ pub const MATERIAL: &[Key] = &[
 
 /// `[domain]`.
 pub const DOMAIN: &[Key] = &[
-    required("shape", ValueType::Word(Shape::words), "The shape of the reference body."),
+    required("shape", ValueType::Word(BodyShape::words), "The shape of the reference body."),
     optional(
         "lower",
         ValueType::Formulas(Length::Dimension),

@@ -50,7 +50,9 @@ pub use boundary::{BoundarySpec, Claim, Face};
 pub use check::{CheckSpec, ExtremeSpec, REGIMES};
 pub use defined::{own_quantities, settle_checks};
 pub use document::MAX_FILE;
-pub use domain::{BODIES, BODY_KEYS, Body, DomainSpec, MAX_VERTICES, Polygon, Round, Shape};
+pub use domain::{
+    BODIES, BODY_KEYS, BodyShape, BodySpec, DomainSpec, MAX_VERTICES, Polygon, Round,
+};
 pub use field::{FieldSpec, read_field};
 pub use folder::{FieldFile, field_files};
 pub use form::Form;

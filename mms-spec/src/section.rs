@@ -2,7 +2,7 @@
 //! turns with theta.
 
 use crate::boundary::{Claim, Face};
-use crate::domain::{Body, is_zero};
+use crate::domain::{BodySpec, is_zero};
 use crate::field::FieldSpec;
 use crate::foreign::Foreign;
 use crate::formula::Formula;
@@ -88,7 +88,7 @@ fn material(field: &FieldSpec) -> String {
 fn body(field: &FieldSpec) -> String {
     let mut text = "\n[domain]\n".to_owned();
     match &field.domain.body {
-        Body::Box { lower, upper } => {
+        BodySpec::Box { lower, upper } => {
             let outer = upper[0].text.trim();
             let inner = match is_zero(&lower[0]) {
                 true => format!("({outer})/8"),

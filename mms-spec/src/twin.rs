@@ -7,7 +7,7 @@
 
 use crate::boundary::Claim;
 use crate::diagnostic::Diagnostic;
-use crate::domain::{Body, Polygon};
+use crate::domain::{BodySpec, Polygon};
 use crate::field::FieldSpec;
 use crate::formula::Formula;
 use crate::rigid::read_rigid;
@@ -101,14 +101,14 @@ fn standard(field: &FieldSpec) -> Option<String> {
         _ => format!("(t - {first})/({last} - {first})"),
     };
     let size = match &field.domain.body {
-        Body::Box { lower, upper } => {
+        BodySpec::Box { lower, upper } => {
             let [lower, upper] = [lower, upper].map(|corner| corner.first().and_then(term));
             let (lower, upper) = (lower?, upper?);
             if lower == "0" { upper } else { format!("({upper} - {lower})") }
         }
-        Body::Round(round) => term(&round.outer)?,
-        Body::Polygon(polygon) => first_edge(polygon)?,
-        Body::Nothing => return None,
+        BodySpec::Round(round) => term(&round.outer)?,
+        BodySpec::Polygon(polygon) => first_edge(polygon)?,
+        BodySpec::Nothing => return None,
     };
     Some(match field.space {
         Space::Axisymmetric { .. } => format!(r#"translation = ["0", "3*{size}*({s})^2"]"#),

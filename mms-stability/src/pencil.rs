@@ -80,7 +80,7 @@ impl Pencil {
 struct Inverse {
     factor: Cholesky<f64, Dyn>,
     /// M times the constraint vectors, the inverse times that, and the matrix of the multipliers.
-    held: DMatrix<f64>,
+    constraints: DMatrix<f64>,
     moved: DMatrix<f64>,
     multipliers: Cholesky<f64, Dyn>,
 }
@@ -91,18 +91,18 @@ impl Inverse {
         mass: &DMatrix<f64>,
         apart: &[DVector<f64>],
     ) -> Option<Self> {
-        let held = match apart {
+        let constraints = match apart {
             [] => DMatrix::zeros(mass.nrows(), 0),
             _ => mass * DMatrix::from_columns(apart),
         };
-        let moved = factor.solve(&held);
-        let multipliers = Cholesky::new(held.tr_mul(&moved))?;
-        Some(Inverse { factor, held, moved, multipliers })
+        let moved = factor.solve(&constraints);
+        let multipliers = Cholesky::new(constraints.tr_mul(&moved))?;
+        Some(Inverse { factor, constraints, moved, multipliers })
     }
 
     fn of(&self, vector: &DVector<f64>) -> DVector<f64> {
         let free = self.factor.solve(vector);
-        let multipliers = self.multipliers.solve(&self.held.tr_mul(&free));
+        let multipliers = self.multipliers.solve(&self.constraints.tr_mul(&free));
         free - &self.moved * multipliers
     }
 }

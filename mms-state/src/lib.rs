@@ -13,7 +13,7 @@ use mms_exact::Exact;
 use mms_files::machine::memory;
 use mms_files::words::bytes;
 use mms_judge::results::axes;
-use mms_results::write::{Column, Shape, State};
+use mms_results::write::{ArrayShape, Column, State};
 use mms_spec::Face;
 use mms_spec::quantity::{self, Quantity};
 
@@ -22,7 +22,7 @@ use self::points::Points;
 
 /// A term that is withheld from a solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Term {
+pub enum WithheldTerm {
     /// b, in all its forms.
     BodyForce,
     /// All stresses, and the quantities that follow from them: divergences, pressure.
@@ -31,39 +31,42 @@ pub enum Term {
     Traction,
 }
 
-impl Term {
+impl WithheldTerm {
     /// All terms.
-    pub const ALL: [Term; 3] = [Term::BodyForce, Term::Stress, Term::Traction];
+    pub const ALL: [WithheldTerm; 3] =
+        [WithheldTerm::BodyForce, WithheldTerm::Stress, WithheldTerm::Traction];
 
     /// The term of this name.
-    pub fn from_name(name: &str) -> Option<Term> {
-        Term::ALL.into_iter().find(|term| term.name() == name)
+    pub fn from_name(name: &str) -> Option<WithheldTerm> {
+        WithheldTerm::ALL.into_iter().find(|term| term.name() == name)
     }
 
     /// A description of the term.
     pub fn says(self) -> &'static str {
         match self {
-            Term::BodyForce => "b, in all its forms",
-            Term::Stress => "All stresses, and what follows from them: divergences, pressure",
-            Term::Traction => "Tractions on the faces",
+            WithheldTerm::BodyForce => "b, in all its forms",
+            WithheldTerm::Stress => {
+                "All stresses, and what follows from them: divergences, pressure"
+            }
+            WithheldTerm::Traction => "Tractions on the faces",
         }
     }
 
     /// The name of the term in commands.
     pub fn name(self) -> &'static str {
         match self {
-            Term::BodyForce => "body_force",
-            Term::Stress => "stress",
-            Term::Traction => "traction",
+            WithheldTerm::BodyForce => "body_force",
+            WithheldTerm::Stress => "stress",
+            WithheldTerm::Traction => "traction",
         }
     }
 
     /// The term that a quantity belongs to.
-    fn of(quantity: Quantity) -> Option<Term> {
+    fn of(quantity: Quantity) -> Option<WithheldTerm> {
         match quantity {
             Quantity::BodyForce
             | Quantity::BodyForceDensity
-            | Quantity::CurrentBodyForceDensity => Some(Term::BodyForce),
+            | Quantity::CurrentBodyForceDensity => Some(WithheldTerm::BodyForce),
             Quantity::FirstPiolaKirchhoff
             | Quantity::NominalStress
             | Quantity::CauchyStress
@@ -72,8 +75,8 @@ impl Term {
             | Quantity::Pressure
             | Quantity::VonMises
             | Quantity::DivP
-            | Quantity::DivSigma => Some(Term::Stress),
-            Quantity::Traction => Some(Term::Traction),
+            | Quantity::DivSigma => Some(WithheldTerm::Stress),
+            Quantity::Traction => Some(WithheldTerm::Traction),
             _ => None,
         }
     }
@@ -124,7 +127,7 @@ pub struct Wanted<'a> {
     /// The quantities; tractions belong to the faces that have points.
     pub quantities: &'a [Quantity],
     /// Terms that are set to 0.
-    pub without: &'a [Term],
+    pub without: &'a [WithheldTerm],
     /// The names of columns.
     pub names: Names,
     /// The data of the field that a solver needs once.
@@ -164,7 +167,7 @@ impl Wanted<'_> {
         let dimension = exact.dimension;
         let mut columns = vec![Column {
             name: self.names.reference().into(),
-            shape: Shape::Vector,
+            shape: ArrayShape::Vector,
             values: points.reference.clone(),
         }];
         for &quantity in self.quantities {
@@ -223,7 +226,7 @@ impl Wanted<'_> {
         (points, dimension): (&[f64], usize),
         time: f64,
     ) -> anyhow::Result<Vec<f64>> {
-        if Term::of(quantity).is_some_and(|term| self.without.contains(&term)) {
+        if WithheldTerm::of(quantity).is_some_and(|term| self.without.contains(&term)) {
             values.fill(0.0);
         }
         let components = values.len() * dimension / points.len().max(1);
@@ -239,13 +242,13 @@ impl Wanted<'_> {
     }
 }
 
-fn shape(quantity: Quantity, exact: &Exact) -> Shape {
+fn shape(quantity: Quantity, exact: &Exact) -> ArrayShape {
     match quantity.shape() {
-        quantity::Shape::Tensor if exact.rows() > exact.dimension => Shape::Nine,
-        quantity::Shape::Scalar => Shape::Scalar,
-        quantity::Shape::Vector if exact.space().vector() > exact.dimension => Shape::Three,
-        quantity::Shape::Vector => Shape::Vector,
-        quantity::Shape::Tensor => Shape::Tensor,
+        quantity::Shape::Tensor if exact.rows() > exact.dimension => ArrayShape::Nine,
+        quantity::Shape::Scalar => ArrayShape::Scalar,
+        quantity::Shape::Vector if exact.space().vector() > exact.dimension => ArrayShape::Three,
+        quantity::Shape::Vector => ArrayShape::Vector,
+        quantity::Shape::Tensor => ArrayShape::Tensor,
     }
 }
 
@@ -258,7 +261,8 @@ fn weights(exact: &mut Exact, points: &Points, time: f64) -> anyhow::Result<Vec<
         false => exact.values(Quantity::Jacobian, time, &points.reference)?,
     };
     let times = |factor: &[f64]| reference.iter().zip(factor).map(|(a, b)| a * b).collect();
-    let column = |name: &str, values| Column { name: name.into(), shape: Shape::Scalar, values };
+    let column =
+        |name: &str, values| Column { name: name.into(), shape: ArrayShape::Scalar, values };
     let mut columns =
         vec![column("volume", times(&stretched)), column("reference_volume", reference.clone())];
     if exact.input().compiled.model.has_density {

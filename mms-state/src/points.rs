@@ -8,7 +8,7 @@ use mms_exact::{Exact, TURNS, says};
 use mms_files::machine::memory;
 use mms_files::results::Disk;
 use mms_judge::results::{Results, placed, without_positions};
-use mms_results::motion::{Body, resolve};
+use mms_results::motion::{ReferenceBody, resolve};
 use mms_results::names::{Names, Role, Values, all_names, everything, recognise};
 use mms_results::{Array, Cells, Snapshot};
 use mms_runtime::scene::{Layout, Scene};
@@ -99,7 +99,7 @@ impl Points {
         path: &str,
         names: &Names,
         dimension: usize,
-        outside: &dyn Body,
+        outside: &dyn ReferenceBody,
     ) -> anyhow::Result<Self> {
         let mut snapshot = one(path, names)?;
         let meanings = recognise(&snapshot, names, &is_place).map_err(placed)?;

@@ -19,12 +19,12 @@ use super::plan::Job;
 /// A function that is called after every step of a run, with the step and the number of steps.
 pub type OnStep<'a> = dyn FnMut(usize, usize) + Send + 'a;
 
-/// A maker of runs.
+/// Runs jobs.
 pub trait JobRunner: Sync {
     /// The result of a run, which is stored.
     type Result: AsRef<SolverOutcome> + Clone + Serialize + DeserializeOwned + Send;
 
-    /// Makes a run, and calls `step` after each of its steps.
+    /// Runs a job, and calls `step` after each of its steps.
     ///
     /// # Errors
     /// A field of the gallery does not compile.

@@ -49,7 +49,7 @@ impl Files for Folder<'_> {
     }
 }
 
-/// A verdict.
+/// The reply to a page that judges results.
 #[derive(Serialize)]
 pub struct JudgeReply {
     /// The document of `mms judge --json`.

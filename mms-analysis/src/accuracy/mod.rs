@@ -227,7 +227,7 @@ impl Accuracy {
     }
 }
 
-/// The measurements in one precision.
+/// The errors that were measured in one precision.
 struct PrecisionErrors {
     /// The errors of each quantity and form.
     errors: Vec<(Quantity, Form, Errors)>,

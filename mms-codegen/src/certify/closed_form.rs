@@ -29,7 +29,7 @@ pub struct Comparison {
     pub span: Span,
     /// The number of points where both were evaluated: [`POINTS`], or fewer if that takes too long.
     pub points: usize,
-    /// The result.
+    /// The verdict.
     pub verdict: ClosedFormVerdict,
 }
 

@@ -58,7 +58,7 @@ pub enum ComputedVerdict {
     NotApplicable,
 }
 
-/// A program in one precision.
+/// The proof that a program in one precision computes its quantities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComputedProof {
     /// Whether the program computes its quantities.

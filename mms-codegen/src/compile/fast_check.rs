@@ -99,7 +99,7 @@ impl FastParameterCheck {
         }
         let parameters = model.parameters.iter();
         let is_sector = match &field.domain.body {
-            mms_spec::Body::Round(round) => round.theta.is_some(),
+            mms_spec::BodySpec::Round(round) => round.theta.is_some(),
             _ => false,
         };
         // A face on the axis may have no other claim.

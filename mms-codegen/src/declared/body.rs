@@ -9,7 +9,7 @@ use mms_mechanics::axisymmetric::{Pole, poles};
 use mms_mechanics::extent::{Block, Extent, Region};
 use mms_program::precise::Precise;
 use mms_spec::diagnostic::Diagnostic;
-use mms_spec::{BalanceLaw, Body, Claim, Face, Formula, Polygon, Round};
+use mms_spec::{BalanceLaw, BodySpec, Claim, Face, Formula, Polygon, Round};
 use mms_symbolic::expr::Expr;
 
 use super::{Bound, Declared, digits, evaluate};
@@ -19,11 +19,13 @@ impl<'a> Declared<'a> {
     pub(super) fn body(&mut self) -> Option<Extent<Precise>> {
         let model = self.model;
         match (&self.field.domain.body, &model.domain.body) {
-            (Body::Box { lower, upper }, Region::Block(block)) => {
+            (BodySpec::Box { lower, upper }, Region::Block(block)) => {
                 self.cuboid([lower, upper], &block.bounds)
             }
-            (Body::Round(round), Region::Block(block)) => self.round(round, block),
-            (Body::Polygon(polygon), Region::Polygon(vertices)) => self.polygon(polygon, vertices),
+            (BodySpec::Round(round), Region::Block(block)) => self.round(round, block),
+            (BodySpec::Polygon(polygon), Region::Polygon(vertices)) => {
+                self.polygon(polygon, vertices)
+            }
             _ => None,
         }
     }

@@ -8,7 +8,7 @@ use mms_mechanics::Output;
 use mms_mechanics::Response;
 use mms_mechanics::invariant::InvariantKind;
 use mms_spec::quantity::Quantity;
-use mms_spec::{Body, Claim, Face};
+use mms_spec::{BodySpec, Claim, Face};
 use mms_symbolic::expr::Symbol;
 
 impl Emitter<'_> {
@@ -342,10 +342,10 @@ impl Emitter<'_> {
         let runtime = Ident::new(RUNTIME, Span::call_site());
         let dimension = self.dimension();
         let body = match &self.compiled.field.domain.body {
-            Body::Box { .. } => quote! {
+            BodySpec::Box { .. } => quote! {
                 Box { lower: self.lower().into(), upper: self.upper().into() }
             },
-            Body::Round(round) => {
+            BodySpec::Round(round) => {
                 let theta =
                     quote!(inner: self.inner()[0], outer: self.outer()[0], theta: self.theta());
                 match round.shape.name {
@@ -354,7 +354,7 @@ impl Emitter<'_> {
                     _ => quote!(Annulus { #theta }),
                 }
             }
-            Body::Polygon(polygon) => {
+            BodySpec::Polygon(polygon) => {
                 let names = &polygon.names;
                 quote! {
                 Polygon {
@@ -367,7 +367,7 @@ impl Emitter<'_> {
                 }
                 }
             }
-            Body::Nothing => quote!(Nothing),
+            BodySpec::Nothing => quote!(Nothing),
         };
         let faces = self.compiled.field.boundary.iter().map(|boundary| {
             let index = Literal::usize_unsuffixed;

@@ -19,7 +19,7 @@ use mms_harness::judged::JudgedStudy;
 use mms_harness::only::Only;
 use mms_harness::plan::{CampaignPlan, Job, PlannedStudy};
 use mms_harness::report::Report;
-use mms_harness::work::{self, Watcher, Work, hash, side_by_side_of};
+use mms_harness::work::{self, CampaignRunner, Watcher, hash, side_by_side_of};
 use mms_options::field::open;
 use mms_report::campaign::{View, line};
 use mms_spec::foreign;
@@ -114,7 +114,7 @@ impl Campaign {
         let folder = given.canonicalize().with_context(|| read::cannot_read(&given))?;
         let progress = Progress::new(&plan, canaries.as_ref())?;
         set_aside.iter().for_each(|what| progress.set_aside(what));
-        let work = Work::new(&plan, &store, &folder, &progress);
+        let work = CampaignRunner::new(&plan, &store, &folder, &progress);
         match (self.dry_run, self.list) {
             (true, _) => self.show(&work),
             (_, true) => self.commands(&work),
@@ -129,7 +129,7 @@ impl Campaign {
     }
 
     /// Makes the runs of a plan, and judges its studies.
-    fn judged<'a>(&self, work: &Work<'a>) -> anyhow::Result<Vec<JudgedStudy<'a>>> {
+    fn judged<'a>(&self, work: &CampaignRunner<'a>) -> anyhow::Result<Vec<JudgedStudy<'a>>> {
         let jobs = self.jobs.unwrap_or_else(|| side_by_side_of(work.plan));
         let all = work.plan.studies.iter().zip(work.outcomes(jobs)?);
         all.map(|(planned, outcomes)| JudgedStudy::new(work, planned, outcomes, &signed)).collect()
@@ -137,14 +137,15 @@ impl Campaign {
 
     fn carry_out(
         &self,
-        work: &Work<'_>,
+        work: &CampaignRunner<'_>,
         canaries: Option<&CampaignPlan>,
         text: &str,
     ) -> anyhow::Result<CommandOutcome> {
         let plan = work.plan;
         let mut studies = self.judged(work)?;
-        let Work { store, folder, watcher, .. } = *work;
-        let canaries = canaries.map(|plan| self.judged(&Work::new(plan, store, folder, watcher)));
+        let CampaignRunner { store, folder, watcher, .. } = *work;
+        let canaries =
+            canaries.map(|plan| self.judged(&CampaignRunner::new(plan, store, folder, watcher)));
         let canaries = canaries.transpose()?;
         for (study, warning) in
             studies.iter().flat_map(|it| it.warnings.iter().map(move |w| (it, w)))
@@ -164,7 +165,11 @@ impl Campaign {
         self.tell(&report, work)
     }
 
-    fn tell(&self, report: &Report<'_>, work: &Work<'_>) -> anyhow::Result<CommandOutcome> {
+    fn tell(
+        &self,
+        report: &Report<'_>,
+        work: &CampaignRunner<'_>,
+    ) -> anyhow::Result<CommandOutcome> {
         self.printing.print_in(self.detail, &View(report))?;
         let mut written = Vec::new();
         if let Some(folder) = &self.output {
@@ -186,7 +191,7 @@ impl Campaign {
     }
 
     /// Shows the runs, and which of them are done.
-    fn show(&self, work: &Work<'_>) -> anyhow::Result<CommandOutcome> {
+    fn show(&self, work: &CampaignRunner<'_>) -> anyhow::Result<CommandOutcome> {
         let describe = |planned: &PlannedStudy, job: &Job, is_done: bool, words: Vec<String>| {
             let line = words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
             let state = if is_done { "done" } else { "to do" };
@@ -207,7 +212,7 @@ impl Campaign {
     }
 
     /// Prints a command for each run that is not done.
-    fn commands(&self, work: &Work<'_>) -> anyhow::Result<CommandOutcome> {
+    fn commands(&self, work: &CampaignRunner<'_>) -> anyhow::Result<CommandOutcome> {
         let [file, store] =
             [&self.file, &self.folder()].map(|it| it.to_string_lossy().into_owned());
         let head = ["campaign".to_owned(), file, format!("--store={store}")];
@@ -222,7 +227,7 @@ impl Campaign {
     /// Prints a line for each run; or `none`, if no run has one.
     fn each(
         &self,
-        work: &Work<'_>,
+        work: &CampaignRunner<'_>,
         none: &str,
         say_of: impl Fn(&PlannedStudy, &Job, bool) -> anyhow::Result<Option<(String, ListedRun)>>,
     ) -> anyhow::Result<CommandOutcome> {

@@ -11,7 +11,7 @@ use mms_files::write::{pretty, write_files};
 use mms_lab::extremes::rows::{ExtremeSetting, rows};
 use mms_lab::extremes::stable;
 use mms_lab::extremes::subject::Subject;
-use mms_lab::extremes::theory::{Elasticity, courant};
+use mms_lab::extremes::theory::{LinearMaterial, courant};
 use mms_lab::extremes::verdict::{Declared, RunResult, judge};
 use mms_lab::rows::Named as _;
 use mms_lab::tradeoff::setting::Setting;
@@ -222,7 +222,7 @@ impl Extremes {
             let measured = stable::courant(&subject, &method)?;
             let theory = elasticity
                 .as_ref()
-                .and_then(|elasticity: &Elasticity| courant(&method, elasticity));
+                .and_then(|elasticity: &LinearMaterial| courant(&method, elasticity));
             if self.quiet_terminal() {
                 progress.say(&format!(
                     "stability of {} {}: {measured:.3}",

@@ -9,7 +9,7 @@ use serde::Deserialize;
 use super::say;
 use crate::provenance::Provenance;
 
-/// The origin that a document names.
+/// A document that is replaced: its provenance.
 #[derive(Deserialize)]
 struct OldDocument {
     provenance: Provenance,

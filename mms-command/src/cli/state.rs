@@ -21,7 +21,7 @@ use mms_spec::quantity::Quantity;
 use mms_state::domain::Domain;
 use mms_state::file::{Frame, Target};
 use mms_state::points::{Given, PER_CELL, Places, Points};
-use mms_state::{Term, USUAL, Wanted};
+use mms_state::{USUAL, Wanted, WithheldTerm};
 
 use super::naming::Naming;
 use super::{CommandOutcome, print, print_json, refuse_overwriting};
@@ -75,7 +75,7 @@ pub struct State {
     /// stresses are 0: a solver that starts from stored stress starts without it), traction (P N = 0 on every face). The
     /// motion is unchanged: u, v and F remain as in the field.
     #[arg(long, value_name = "TERM,..", value_delimiter = ',', value_parser = terms())]
-    without: Vec<Term>,
+    without: Vec<WithheldTerm>,
     /// Write the affine part of the motion about the middle c of the body, u(c, t) + H(c, t) (X - c). If the material is the
     /// same everywhere, so is the stress, and b is the acceleration alone: the errors of a consistent method are round-off
     /// and the error of its time steps. With --rigid a rigid motion is added.
@@ -96,10 +96,10 @@ pub struct State {
 }
 
 /// Reads a term that a solver is not given.
-fn terms() -> impl TypedValueParser<Value = Term> {
-    let name = |term: Term| PossibleValue::new(term.name()).help(term.says());
-    let names = PossibleValuesParser::new(Term::ALL.map(name));
-    names.try_map(|name| Term::from_name(&name).ok_or("no term"))
+fn terms() -> impl TypedValueParser<Value = WithheldTerm> {
+    let name = |term: WithheldTerm| PossibleValue::new(term.name()).help(term.says());
+    let names = PossibleValuesParser::new(WithheldTerm::ALL.map(name));
+    names.try_map(|name| WithheldTerm::from_name(&name).ok_or("no term"))
 }
 
 impl State {

@@ -6,7 +6,7 @@ use mms_spec::format::MATERIAL;
 use mms_spec::moduli;
 use mms_spec::moduli::Pair;
 use mms_spec::quantity::Quantity;
-use mms_spec::{BODIES, BODY_KEYS, Face, MaterialSpec, Shape, Space};
+use mms_spec::{BODIES, BODY_KEYS, BodyShape, Face, MaterialSpec, Space};
 use serde_json::{Map, Value, json};
 
 use super::value_types::{count, extend};
@@ -69,7 +69,7 @@ fn shape_is(shape: &str) -> (&'static str, Value) {
 fn in_dimension(dimension: usize) -> Value {
     let vectors = ["displacement.u", "domain.lower", "domain.upper", "rigid.translation"];
     let mut asked: Vec<_> = vectors.iter().map(|path| at(path, count(dimension))).collect();
-    let fits = |shape: &&Shape| shape.dimension.is_none_or(|needed| needed == dimension);
+    let fits = |shape: &&BodyShape| shape.dimension.is_none_or(|needed| needed == dimension);
     let shapes: Vec<_> = BODIES.iter().filter(fits).map(|shape| shape.name).collect();
     asked.push(at("domain.shape", json!({ "enum": shapes })));
     if_then(has(&[dimension_is(dimension)]), all(asked))
@@ -167,7 +167,7 @@ fn faces(faces: &[Face]) -> Value {
 }
 
 /// The keys of a body of that shape.
-fn keys_of(shape: &Shape) -> Value {
+fn keys_of(shape: &BodyShape) -> Value {
     let is_other = |key: &&&str| !shape.required.contains(*key) && !shape.optional.contains(*key);
     let others: Vec<&str> = BODY_KEYS.iter().filter(is_other).copied().collect();
     if_then(has(&[shape_is(shape.name)]), domain(shape.required, &others))

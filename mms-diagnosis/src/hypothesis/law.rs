@@ -4,7 +4,7 @@ use mms_runtime::Matrix;
 
 use super::{Change, Given, Hypothesis, HypothesisKind, Known, Of, OfStress};
 use crate::exact::Exact;
-use crate::law::{LAWS, Law};
+use crate::law::{LAWS, PublishedLaw};
 
 pub(super) fn all<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
     let mut all = vec![Hypothesis::factor(
@@ -120,7 +120,7 @@ fn other_laws<const D: usize>(exact: &Exact<'_, D>) -> Vec<Hypothesis<D>> {
         of_law::<D, 9>,
     ];
     let others = LAWS.iter().zip(all).filter(|(law, _)| own != Some(law.name));
-    let hypothesis = |(law, change): (&Law, _)| {
+    let hypothesis = |(law, change): (&PublishedLaw, _)| {
         let is_linear = law.name == "linear_elastic";
         let (name, says) = if is_linear {
             ("stress_small_strain", "the linear law of small strains")

@@ -13,7 +13,7 @@ use field::{DENSITY, FREQUENCY, LAMBDA, MU, Square};
 use mms_diagnosis::answer::{Diagnosis, DiagnosisFinding, ErrorPlace, Limits, Ranked, Rung};
 use mms_diagnosis::changed::Without;
 use mms_diagnosis::closed_form::{self, ClosedForm};
-use mms_diagnosis::evidence::{DEGREE, Frame, Mesh, Snapshot};
+use mms_diagnosis::evidence::{ComparisonFrame, DEGREE, Mesh, Snapshot};
 use mms_diagnosis::exact::{Exact, Quantity};
 use mms_diagnosis::excluded::{Study, VisibleSizes, excluded};
 use mms_diagnosis::hypothesis::{self, all};
@@ -514,8 +514,11 @@ fn said(meshes: &[Mesh]) -> Diagnosis {
     if let Some(found) = patterns::zero(&exact, &snapshots) {
         return found;
     }
-    let frame =
-        Frame::new(&exact, &snapshots, Smooth::new(&exact.domain.body, 576, DEGREE).unwrap());
+    let frame = ComparisonFrame::new(
+        &exact,
+        &snapshots,
+        Smooth::new(&exact.domain.body, 576, DEGREE).unwrap(),
+    );
     let found =
         ordinary::diagnose(&exact, &frame, meshes, &all(&exact), &Solver::default()).unwrap();
     patterns::or_permutation(&exact, &snapshots, found)

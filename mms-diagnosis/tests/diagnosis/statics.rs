@@ -1,7 +1,7 @@
 //! Mistakes at equilibrium of a rod whose stress follows on paper from its loads: P(X) = T + int rho0 b from X to the end. H
 //! then follows by bisection, and u by integration.
 
-use mms_diagnosis::evidence::{DEGREE, Frame, Mesh, Snapshot};
+use mms_diagnosis::evidence::{ComparisonFrame, DEGREE, Mesh, Snapshot};
 use mms_diagnosis::exact::{Exact, Quantity};
 use mms_diagnosis::excluded::{Study, VisibleSizes, excluded};
 use mms_diagnosis::hypothesis::{Hypothesis, all};
@@ -136,9 +136,9 @@ fn mesh(cells: usize, beside: &[f64]) -> Mesh {
     Mesh { cell_size: h, time_step: None, snapshots: vec![snapshot] }
 }
 
-fn frame(exact: &Exact<'_, 1>, mesh: &Mesh) -> Frame<1> {
+fn frame(exact: &Exact<'_, 1>, mesh: &Mesh) -> ComparisonFrame<1> {
     let smooth = Smooth::new(&exact.domain.body, mesh.snapshots[0].reference.len(), DEGREE);
-    Frame::new(exact, &[&mesh.snapshots[0]], smooth.unwrap())
+    ComparisonFrame::new(exact, &[&mesh.snapshots[0]], smooth.unwrap())
 }
 
 #[test]

@@ -6,7 +6,7 @@ use anyhow::Context as _;
 use mms_documents::judge::{ExplainedFile, ExplainedQuantity};
 use mms_exact::Exact;
 use mms_results::Snapshot;
-use mms_results::cell::Shape;
+use mms_results::cell::CellShape;
 use mms_results::names::Role;
 use mms_results::own::LeftOut;
 use mms_spec::foreign::shown;
@@ -160,7 +160,7 @@ fn cells(snapshot: &Snapshot) -> Vec<String> {
     let mut counts = BTreeMap::<(u8, usize), usize>::new();
     let kinds = snapshot.cells.iter().map(|(kind, points)| (kind, points.len()));
     kinds.for_each(|kind| *counts.entry(kind).or_default() += 1);
-    let of = |(&(kind, points), count): (&(u8, usize), &usize)| match Shape::of(kind, points) {
+    let of = |(&(kind, points), count): (&(u8, usize), &usize)| match CellShape::of(kind, points) {
         Some(shape) => {
             format!("{count} of dimension {} and degree {}", shape.dimension, shape.degree())
         }

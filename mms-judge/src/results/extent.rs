@@ -7,7 +7,7 @@ use mms_exact::Exact;
 use mms_mechanics::extent::Extent;
 use mms_results::lattice::Lattice;
 use mms_results::mesh::{Mesh, swept};
-use mms_results::motion::{Body, Motion, resolve};
+use mms_results::motion::{Motion, ReferenceBody, resolve};
 use mms_results::names::Meaning;
 use mms_results::{Cells, Snapshot};
 use mms_runtime::math::coordinates::{Side, System};
@@ -105,7 +105,7 @@ struct Filled<'a> {
     is_part: bool,
 }
 
-impl Body for Filled<'_> {
+impl ReferenceBody for Filled<'_> {
     fn distance(&self, point: &[f64]) -> f64 {
         self.exact.body.distance(point)
     }

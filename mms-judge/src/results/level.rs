@@ -101,7 +101,7 @@ impl Over {
 pub struct Measure {
     /// The error.
     pub error: f64,
-    /// The floor.
+    /// The largest error that rounding of the file alone may make.
     pub rounding_error: f64,
 }
 

@@ -18,7 +18,7 @@ use mms_symbolic::expr::Rational;
 use mms_symbolic::sorted::SortedMap;
 
 use super::rows::ExtremeSetting;
-use super::theory::Elasticity;
+use super::theory::LinearMaterial;
 use super::verdict::{Diagnosis, RunResult};
 
 /// The number of points and times at which the largest displacement and the least J are searched.
@@ -135,13 +135,13 @@ impl Subject {
     ///
     /// # Errors
     /// The gallery differs from its files.
-    pub fn elasticity(&self) -> anyhow::Result<Option<Elasticity>> {
+    pub fn elasticity(&self) -> anyhow::Result<Option<LinearMaterial>> {
         let compiled = &self.input.compiled;
         let (extent, _) = domain(&compiled.program, &compiled.parameters::<f64>(&self.set));
         let Some(bounds) = extent.box_bounds() else { return Ok(None) };
         let middle: Vec<f64> = bounds.iter().map(|[lower, upper]| (lower + upper) / 2.0).collect();
         let scene = self.input.scene_with(&self.set, |code| code.double)?;
-        Ok(Some(Elasticity::of(&scene, &middle)))
+        Ok(Some(LinearMaterial::of(&scene, &middle)))
     }
 
     /// Runs a method.

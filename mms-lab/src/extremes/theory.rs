@@ -36,14 +36,14 @@ const STRAIN: f64 = 1e-6;
 
 /// A linear elastic material.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Elasticity {
+pub struct LinearMaterial {
     /// The dimension of space.
     pub dimension: usize,
     /// dP_ab/dH_cd at F = I over rho c0^2, the last index running first.
     pub stiffness: Vec<f64>,
 }
 
-impl Elasticity {
+impl LinearMaterial {
     /// The elasticity of a field's material at F = I, at a point of the body.
     pub fn of(scene: &Scene<f64>, point: &[f64]) -> Self {
         match scene {
@@ -54,7 +54,10 @@ impl Elasticity {
     }
 }
 
-fn stiffness<const D: usize>(field: &dyn ManufacturedField<f64, D>, point: &[f64]) -> Elasticity {
+fn stiffness<const D: usize>(
+    field: &dyn ManufacturedField<f64, D>,
+    point: &[f64],
+) -> LinearMaterial {
     let point = [Vector::<f64, D>::from_column_slice(point)];
     let (mut rho, mut c0) = ([0.0], [0.0]);
     field.density(&point, &mut rho);
@@ -74,7 +77,7 @@ fn stiffness<const D: usize>(field: &dyn ManufacturedField<f64, D>, point: &[f64
             all[((a * D + b) * D + c) * D + d] = change[(a, b)];
         }
     }
-    Elasticity { dimension: D, stiffness: all }
+    LinearMaterial { dimension: D, stiffness: all }
 }
 
 /// The position of a node relative to the particle, w and dw/dx; cells have length 1.
@@ -148,7 +151,7 @@ struct GridMode {
 }
 
 /// The mode of a wave, given its values along each axis at each of the particles along it.
-fn mode(elasticity: &Elasticity, axes: &[Vec<Along>]) -> GridMode {
+fn mode(elasticity: &LinearMaterial, axes: &[Vec<Along>]) -> GridMode {
     let (dimension, per_axis) = (elasticity.dimension, axes[0].len());
     let count = per_axis.pow(dimension as u32);
     let part = 1.0 / count as f64;
@@ -188,7 +191,7 @@ fn mode(elasticity: &Elasticity, axes: &[Vec<Along>]) -> GridMode {
 }
 
 /// The largest stable Courant number of a method; none of a method that is not analysed.
-pub fn courant(method: &Method, elasticity: &Elasticity) -> Option<f64> {
+pub fn courant(method: &Method, elasticity: &LinearMaterial) -> Option<f64> {
     let dimension = elasticity.dimension;
     let per_axis = method.setup.particles_per_cell.numbers();
     let particles = match *per_axis.as_slice() {
@@ -240,8 +243,8 @@ mod tests {
 
     use super::*;
 
-    fn bar() -> Elasticity {
-        Elasticity { dimension: 1, stiffness: vec![1.0] }
+    fn bar() -> LinearMaterial {
+        LinearMaterial { dimension: 1, stiffness: vec![1.0] }
     }
 
     fn limit(shape: ShapeName, particles: usize, setup: Setup, integrator: IntegratorName) -> f64 {
@@ -304,7 +307,7 @@ mod tests {
     fn a_plane_without_shear_is_as_stable_as_a_bar_or_less() {
         let mut stiffness = vec![0.0; 16];
         stiffness[0] = 1.0;
-        let plane = Elasticity { dimension: 2, stiffness };
+        let plane = LinearMaterial { dimension: 2, stiffness };
         let method = Method { shape: ShapeName::Linear, ..Method::default() };
         let [line, plane] = [bar(), plane].map(|it| courant(&method, &it).unwrap());
         assert!(plane <= line + 1e-9 && plane > 0.9 * line, "{plane}, {line}");

@@ -116,7 +116,7 @@ pub struct Declared {
     pub least_jacobian: f64,
 }
 
-/// The end of a row.
+/// The verdict of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ExtremeVerdict {
     /// The error is within its bound.

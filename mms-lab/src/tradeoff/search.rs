@@ -92,7 +92,7 @@ pub trait Runner {
     fn run(&mut self, setting: &Setting, cells: usize) -> anyhow::Result<Trial>;
 }
 
-/// The scope of the search.
+/// The problem that a search solves: a goal, a cost, and limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SearchProblem {
     /// The dimension of the body.

@@ -22,21 +22,21 @@ impl Reader<'_> {
         Some(Domain { body, time: [first?, last?], is_static: domain.time.is_none() })
     }
 
-    fn body(&mut self, body: &mms_spec::Body, dimension: usize) -> Option<Body> {
+    fn body(&mut self, body: &mms_spec::BodySpec, dimension: usize) -> Option<Body> {
         match body {
-            mms_spec::Body::Box { lower, upper } => {
+            mms_spec::BodySpec::Box { lower, upper } => {
                 let (lower, upper) = (self.constants(lower), self.constants(upper));
                 Some(Region::cuboid(lower?, upper?))
             }
-            mms_spec::Body::Round(round) => self.round(round),
-            mms_spec::Body::Polygon(polygon) => {
+            mms_spec::BodySpec::Round(round) => self.round(round),
+            mms_spec::BodySpec::Polygon(polygon) => {
                 let vertices: Vec<_> =
                     polygon.vertices.iter().map(|vertex| self.constants(vertex)).collect();
                 let pair = |vertex: Option<Vec<Expr>>| <[Expr; 2]>::try_from(vertex?).ok();
                 let vertices = vertices.into_iter().map(pair).collect::<Option<Vec<_>>>()?;
                 (vertices.len() >= 3).then_some(Region::Polygon(vertices))
             }
-            mms_spec::Body::Nothing => Some(Region::Nothing(dimension)),
+            mms_spec::BodySpec::Nothing => Some(Region::Nothing(dimension)),
         }
     }
 

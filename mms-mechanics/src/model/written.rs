@@ -4,7 +4,7 @@
 //! form.
 
 use super::Reader;
-use crate::resolve::Step;
+use crate::resolve::WrittenOperation;
 use mms_spec::source::Span;
 use mms_spec::syntax::{Ast, NodeKind};
 use mms_symbolic::expr::Expr;
@@ -25,7 +25,7 @@ pub struct Part {
     /// The formulas, and their places in the file.
     pub formulas: Vec<(Expr, Span)>,
     /// The steps in order: each one follows the steps that it needs.
-    pub steps: Vec<Step>,
+    pub steps: Vec<WrittenOperation>,
 }
 
 /// A formula that was read.
@@ -36,11 +36,11 @@ pub(super) struct Read {
     uses: Vec<String>,
     value: Expr,
     span: Span,
-    steps: Vec<Step>,
+    steps: Vec<WrittenOperation>,
 }
 
 impl Read {
-    pub fn new(ast: &Ast, value: Expr, span: Span, steps: Vec<Step>) -> Self {
+    pub fn new(ast: &Ast, value: Expr, span: Span, steps: Vec<WrittenOperation>) -> Self {
         let name = |kind: &NodeKind| match kind {
             NodeKind::Name(name) => Some(name.clone()),
             _ => None,

@@ -4,7 +4,7 @@ use mms_symbolic::expr::{Expr, Function, Graph, Rational, Symbol};
 use mms_symbolic::pass::curvature::curvature;
 
 use super::evaluation::{place, values};
-use super::recipe::Place;
+use super::recipe::SpaceTimePoint;
 
 /// Functions, products, quotients, powers and roots of X + t, none of which is 0 at t = 0; and a cosine, a hyperbolic cosine
 /// and a square of t.
@@ -53,7 +53,7 @@ fn nothing_cancels_in_what_is_of_second_order() {
     for (index, parts) in curvature(&mut graph, &written, Symbol::Time).into_iter().enumerate() {
         let rest = parts.expect("a rule").rest;
         let exact = values(&graph, &[rest], &place(0.3, 0.5, 1e-9))[0].to_f64();
-        let at = Place { coordinates: [0.3, 0.5], time: 1e-9 };
+        let at = SpaceTimePoint { coordinates: [0.3, 0.5], time: 1e-9 };
         let rounded: f64 = values(&graph, &[rest], &at)[0];
         let error = (rounded / exact - 1.0).abs();
         assert!(error < 32.0 * f64::EPSILON, "{:?}: {error:e}", graph.node(written[index]));

@@ -11,12 +11,12 @@ use proptest::prelude::*;
 use crate::sampled::sampled_count;
 
 use super::evaluation::{close, place, places, power_of_ten, ratio, value_and_extent, values};
-use super::recipe::{Place, X, any_recipe, built, evaluate};
+use super::recipe::{SpaceTimePoint, X, any_recipe, built, evaluate};
 
 /// The place with X as the variable of a derivative.
-fn varied(at: &Place<Precise>) -> Place<Dual<Precise>> {
+fn varied(at: &SpaceTimePoint<Precise>) -> SpaceTimePoint<Dual<Precise>> {
     let [x, y] = at.coordinates.clone();
-    Place {
+    SpaceTimePoint {
         coordinates: [Dual::variable(x), Dual::constant(y)],
         time: Dual::constant(at.time.clone()),
     }
@@ -24,7 +24,10 @@ fn varied(at: &Place<Precise>) -> Place<Dual<Precise>> {
 
 /// The central difference of order 6 in X (Fornberg, Mathematics of Computation 51, 1988, table 1): its error is step^6/140
 /// times the seventh derivative.
-fn difference(at: &Place<Precise>, f: impl Fn(&Place<Precise>) -> Precise) -> Precise {
+fn difference(
+    at: &SpaceTimePoint<Precise>,
+    f: impl Fn(&SpaceTimePoint<Precise>) -> Precise,
+) -> Precise {
     let step = power_of_ten(10);
     let shifted = |steps: i32| {
         let mut at = at.clone();
@@ -142,7 +145,7 @@ fn second_derivatives_are_those_of_duals_of_duals() {
     let at = place(2.1, 0.0, 0.0);
     let x = Dual::variable(Dual::variable(at.coordinates[0].clone()));
     let constant = Dual::from_f64(0.0);
-    let varied = Place { coordinates: [x, constant.clone()], time: constant };
+    let varied = SpaceTimePoint { coordinates: [x, constant.clone()], time: constant };
     let duals = values(&graph, &roots, &varied);
     for ((root, found), dual) in roots.iter().zip(values(&graph, &second, &at)).zip(duals) {
         let text = graph.print(*root, &Names::default());

@@ -4,7 +4,7 @@ use mms_symbolic::expr::{Expr, Function, Graph, Rational, Symbol};
 use mms_symbolic::pass::difference::difference;
 
 use super::evaluation::{place, values};
-use super::recipe::Place;
+use super::recipe::SpaceTimePoint;
 
 const FUNCTIONS: [Function; 13] = [
     Function::Cbrt,
@@ -65,7 +65,7 @@ fn nothing_cancels_in_the_rest() {
     for (index, parts) in parts.into_iter().enumerate().take(written.len() - 1) {
         let rest = parts.expect("a value at 0").rest;
         let exact = values(&graph, &[rest], &place(0.3, 0.5, 1e-12))[0].to_f64();
-        let at = Place { coordinates: [0.3, 0.5], time: 1e-12 };
+        let at = SpaceTimePoint { coordinates: [0.3, 0.5], time: 1e-12 };
         let rounded: f64 = values(&graph, &[rest], &at)[0];
         let error = (rounded / exact - 1.0).abs();
         assert!(error < 8.0 * f64::EPSILON, "{:?}: {error:e}", graph.node(written[index]));
@@ -84,7 +84,7 @@ fn nothing_cancels_where_functions_are_0_elsewhere_than_at_0() {
     let parts = difference(&mut graph, &written, Symbol::Time).into_iter();
     let rests: Vec<_> = parts.map(|parts| parts.expect("a value at 0").rest).collect();
     for t in [1e-3_f64, 1e-9, 1e-30] {
-        let at = Place { coordinates: [0.3, 0.5], time: t };
+        let at = SpaceTimePoint { coordinates: [0.3, 0.5], time: t };
         let found: Vec<f64> = values(&graph, &rests, &at);
         for (found, sign) in found.into_iter().zip([1.0, -1.0]) {
             let exact = t * t * (sign / 2.0 - t * t / 12.0);

@@ -10,16 +10,16 @@ use mms_symbolic::expr::{Expr, Graph, Rational};
 use mms_symbolic::sorted::SortedMap;
 use proptest::prelude::*;
 
-use super::recipe::Place;
+use super::recipe::SpaceTimePoint;
 
 /// The value of each root at a place, by its program.
-pub fn values<T: Number>(graph: &Graph, roots: &[Expr], at: &Place<T>) -> Vec<T> {
+pub fn values<T: Number>(graph: &Graph, roots: &[Expr], at: &SpaceTimePoint<T>) -> Vec<T> {
     let outputs = SortedMap::from([(Output::Expected(0), roots.to_vec())]);
     run(&schedule(graph, &outputs), at)
 }
 
 /// The values of the first output of a program at a place.
-pub fn run<T: Number>(program: &Program, at: &Place<T>) -> Vec<T> {
+pub fn run<T: Number>(program: &Program, at: &SpaceTimePoint<T>) -> Vec<T> {
     assert_is_ordered(program);
     let mut interpreter = Interpreter::new(program, &[]);
     interpreter.set_time(&at.time);
@@ -49,9 +49,9 @@ pub fn power_of_ten(exponent: u32) -> Precise {
 }
 
 /// A place at exact doubles.
-pub fn place(x: f64, y: f64, t: f64) -> Place<Precise> {
+pub fn place(x: f64, y: f64, t: f64) -> SpaceTimePoint<Precise> {
     let [x, y, time] = [x, y, t].map(Precise::from_f64);
-    Place { coordinates: [x, y], time }
+    SpaceTimePoint { coordinates: [x, y], time }
 }
 
 /// Whether two values differ by at most 10^-digits of a scale.
@@ -87,7 +87,11 @@ impl Extent {
 }
 
 /// The value of an expression, and the largest value of its parts.
-pub fn value_and_extent(graph: &Graph, root: Expr, at: &Place<Precise>) -> (Precise, Extent) {
+pub fn value_and_extent(
+    graph: &Graph,
+    root: Expr,
+    at: &SpaceTimePoint<Precise>,
+) -> (Precise, Extent) {
     let parts: Vec<Expr> = graph.reachable(&[root]).into_iter().collect();
     let mut extent = Extent::new();
     let values = values(graph, &parts, at);
@@ -97,7 +101,7 @@ pub fn value_and_extent(graph: &Graph, root: Expr, at: &Place<Precise>) -> (Prec
 }
 
 /// Places of either sign, none of them special.
-pub fn places() -> Vec<Place<Precise>> {
+pub fn places() -> Vec<SpaceTimePoint<Precise>> {
     [
         (0.846_1, -0.4, 0.428_6),
         (-0.731, 0.377, 0.917),
@@ -121,7 +125,7 @@ pub fn same_value(graph: &Graph, before: Expr, after: Expr) -> Result<(), TestCa
     }
     for (x, y, t) in [(0.25, -0.5, 0.125), (-1.5, 0.75, 2.0), (3.0, 2.5, -1.25)] {
         let around = |value: f64| Interval::new(value - 0.0625, value + 0.0625);
-        let at = Place { coordinates: [around(x), around(y)], time: around(t) };
+        let at = SpaceTimePoint { coordinates: [around(x), around(y)], time: around(t) };
         let boxes = values(graph, &[before, after], &at);
         let values = values(graph, &[before, after], &place(x, y, t));
         let [greatest_lower, least_upper] =

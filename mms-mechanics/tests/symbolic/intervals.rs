@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use crate::sampled::sampled_count;
 
 use super::evaluation::{place, values};
-use super::recipe::{Place, any_recipe, built, evaluate};
+use super::recipe::{SpaceTimePoint, any_recipe, built, evaluate};
 
 /// A box by its centre and half widths, from a point to all of space.
 fn boxes() -> impl Strategy<Value = [(f64, f64); 3]> {
@@ -20,10 +20,10 @@ fn boxes() -> impl Strategy<Value = [(f64, f64); 3]> {
     [side.clone(), side.clone(), side]
 }
 
-fn around(sides: &[(f64, f64); 3], share: f64) -> Place<Interval> {
+fn around(sides: &[(f64, f64); 3], share: f64) -> SpaceTimePoint<Interval> {
     let [x, y, time] =
         sides.map(|(centre, half)| Interval::new(centre - half * share, centre + half * share));
-    Place { coordinates: [x, y], time }
+    SpaceTimePoint { coordinates: [x, y], time }
 }
 
 /// Whether a value lies within bounds, compared exactly.

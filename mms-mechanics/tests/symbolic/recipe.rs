@@ -151,14 +151,14 @@ pub fn rewritten(recipe: &Recipe) -> Recipe {
 
 /// A place: X, Y and t.
 #[derive(Clone, Debug)]
-pub struct Place<T> {
+pub struct SpaceTimePoint<T> {
     pub coordinates: [T; 2],
     pub time: T,
 }
 
 /// The value of a recipe, by plain arithmetic on its own tree: no graph is involved. Every intermediate value is passed to
 /// `see`.
-pub fn evaluate<T: Number>(recipe: &Recipe, at: &Place<T>, see: &mut impl FnMut(&T)) -> T {
+pub fn evaluate<T: Number>(recipe: &Recipe, at: &SpaceTimePoint<T>, see: &mut impl FnMut(&T)) -> T {
     let value = match recipe {
         Recipe::Number(numerator, denominator) => T::ratio(*numerator, i32::from(*denominator)),
         Recipe::Leaf(axis @ (0 | 1)) => at.coordinates[usize::from(*axis)].clone(),

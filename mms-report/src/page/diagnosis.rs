@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use mms_documents::diagnose::{Diagnose, ErrorFields, Hypothesis};
 
 use super::mark::{number, numbers, table, words};
-use super::picture::{Moment, Scale, Shape, pictures, project};
+use super::picture::{Moment, PaintedShape, Scale, pictures, project};
 use super::{Section, Verdicts};
 
 /// The number of hypotheses that are shown.
@@ -103,7 +103,10 @@ fn error_fields(diagnosis: &Diagnose, fields: &ErrorFields, id: &str) -> Markup 
             .points
             .iter()
             .zip(errors)
-            .map(|(x, error)| Shape { corners: vec![project(x)], step: scale.step(size(error)) })
+            .map(|(x, error)| PaintedShape {
+                corners: vec![project(x)],
+                step: scale.step(size(error)),
+            })
             .collect(),
         outline: Vec::new(),
     };

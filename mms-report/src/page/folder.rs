@@ -55,7 +55,7 @@ impl Page {
     }
 }
 
-/// The kind of a file.
+/// A file of a folder, by its kind.
 enum FolderFile {
     Result(Box<Entry>),
     /// One run of a store.

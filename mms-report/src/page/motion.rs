@@ -14,7 +14,7 @@ use mms_runtime::math::polygon;
 use mms_spec::quantity::Quantity;
 use mms_symbolic::sorted::SortedMap;
 
-use super::picture::{Moment, Scale, Shape, pictures, project, thumbnail};
+use super::picture::{Moment, PaintedShape, Scale, pictures, project, thumbnail};
 use crate::plot::short;
 
 /// Times of a picture, from the first to the last of the window.
@@ -243,7 +243,12 @@ fn faces<P: Iterator<Item = [f64; 2]> + Clone>(
 }
 
 /// The displaced cells, on paper. For a body in space, the cells that face the viewer, the farthest first.
-fn shapes(cells: &[Cell], moved: &[Vec<Vec<f64>>], factor: f64, scale: &Scale) -> Vec<Shape> {
+fn shapes(
+    cells: &[Cell],
+    moved: &[Vec<Vec<f64>>],
+    factor: f64,
+    scale: &Scale,
+) -> Vec<PaintedShape> {
     let height = 0.06 * size(cells);
     let mut shapes = Vec::new();
     for (cell, moved) in cells.iter().zip(moved) {
@@ -259,7 +264,7 @@ fn shapes(cells: &[Cell], moved: &[Vec<Vec<f64>>], factor: f64, scale: &Scale) -
             corners = vec![[a, 0.0], [b, 0.0], [b, height], [a, height]];
         }
         if places[0].len() < 3 || area(&corners) > 0.0 {
-            shapes.push((depth, Shape { corners, step: scale.step(mean) }));
+            shapes.push((depth, PaintedShape { corners, step: scale.step(mean) }));
         }
     }
     if cells[0][0].len() == 3 {

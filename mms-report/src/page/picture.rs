@@ -24,14 +24,14 @@ pub struct Moment {
     /// The time.
     pub time: f64,
     /// The painted shapes, one over the other.
-    pub shapes: Vec<Shape>,
+    pub shapes: Vec<PaintedShape>,
     /// Lines around it: its outline at rest.
     pub outline: Vec<Vec<[f64; 2]>>,
 }
 
 /// A polygon, or a dot if it has one corner.
 #[derive(Clone, PartialEq)]
-pub struct Shape {
+pub struct PaintedShape {
     /// The corners; coordinates are to the right and upwards.
     pub corners: Vec<[f64; 2]>,
     /// The colour, less than [`STEPS`].
@@ -234,7 +234,7 @@ fn shapes(moment: &Moment, window: &Window, dot: i64) -> Markup {
     }
 }
 
-fn draw(shape: &Shape, window: &Window, dot: i64, path: &mut String) {
+fn draw(shape: &PaintedShape, window: &Window, dot: i64, path: &mut String) {
     if let [point] = shape.corners[..] {
         let [x, y] = window.place(point);
         let _ = write!(path, "M{} {}h{dot}v{dot}h-{dot}z", x - dot / 2, y - dot / 2);
@@ -271,7 +271,7 @@ mod tests {
     #[test]
     fn axes_have_round_numbers_at_their_places() {
         let corners = vec![[0.0, 0.0], [0.2, 0.0], [0.2, 0.1], [0.0, 0.1]];
-        let shapes = vec![Shape { corners, step: 0 }];
+        let shapes = vec![PaintedShape { corners, step: 0 }];
         let moment = Moment { time: 0.0, shapes, outline: Vec::new() };
         let scale = Scale { name: "error (mm)".into(), range: [0.0, 1.0], is_logarithmic: false };
         let names = ["X (mm)".to_owned(), "Y (mm)".to_owned()];
@@ -308,7 +308,7 @@ mod tests {
     fn all_moments_have_one_scale_and_stay_inside() {
         let square = |size: f64| Moment {
             time: size,
-            shapes: vec![Shape {
+            shapes: vec![PaintedShape {
                 corners: vec![[0.0, 0.0], [size, 0.0], [size, size], [0.0, size]],
                 step: 3,
             }],

@@ -9,7 +9,7 @@ use maud::{Markup, html};
 use mms_files::read::{self, FileKind};
 use roxmltree::Document;
 
-use super::picture::{Moment, Scale, Shape, pictures, project};
+use super::picture::{Moment, PaintedShape, Scale, pictures, project};
 use super::{Section, Verdicts};
 
 /// The heading above all states.
@@ -173,7 +173,7 @@ fn moment(state: &State, dimension: usize, step: usize, scale: &Scale) -> Moment
         // Neighbours of one colour share an element.
         particles.sort_by_key(|(_, error)| scale.step(*error));
     }
-    let shape = |(place, error): &([f64; 3], f64)| Shape {
+    let shape = |(place, error): &([f64; 3], f64)| PaintedShape {
         corners: vec![project(&place[..dimension])],
         step: scale.step(*error),
     };

@@ -29,7 +29,7 @@ pub struct Report<'a> {
     pub title: Foreign,
     /// The unit of the displacement, if the field states units.
     pub unit: Option<String>,
-    /// The plan of the search.
+    /// The problem that the search solves.
     pub problem: SearchProblem,
     /// The runs and predictions of the search.
     pub found: TradeoffResult,

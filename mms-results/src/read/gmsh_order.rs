@@ -1,7 +1,7 @@
 //! The node order of Gmsh for elements of order 3 and more ("Gmsh Reference Manual", section "Node ordering"): corners, then
 //! nodes of edges, of faces, and inner nodes, where faces and the inner nodes have the order of such elements again.
 
-use crate::cell::Shape;
+use crate::cell::CellShape;
 
 /// A place by its steps along the axes; from end to end there are as many steps as the order.
 type Steps = [i32; 3];
@@ -49,7 +49,7 @@ pub fn order(of_vtk: u8, nodes: usize) -> Vec<usize> {
     };
     let order = (1..).find(|order| volume(form, inner, *order).len() >= nodes).unwrap_or(1);
     let own = volume(form, inner, order);
-    let shape = Shape::of(of_vtk, nodes).expect("a cell of Lagrange that is known");
+    let shape = CellShape::of(of_vtk, nodes).expect("a cell of Lagrange that is known");
     let place = |at: &[f64; 3]| {
         let steps = at.map(|it| (it * f64::from(order)).round() as i32);
         own.iter().position(|it| *it == steps).expect("the same nodes in Gmsh and in VTK")

@@ -13,7 +13,7 @@ pub use vtu::{head, vtu};
 
 /// The number of components of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
+pub enum ArrayShape {
     /// One number.
     Scalar,
     /// One whole number.
@@ -28,15 +28,15 @@ pub enum Shape {
     Nine,
 }
 
-impl Shape {
+impl ArrayShape {
     /// The number of components.
     pub fn components(self, dimension: usize) -> usize {
         match self {
-            Shape::Scalar | Shape::Whole => 1,
-            Shape::Vector => dimension,
-            Shape::Tensor => dimension * dimension,
-            Shape::Three => 3,
-            Shape::Nine => 9,
+            ArrayShape::Scalar | ArrayShape::Whole => 1,
+            ArrayShape::Vector => dimension,
+            ArrayShape::Tensor => dimension * dimension,
+            ArrayShape::Three => 3,
+            ArrayShape::Nine => 9,
         }
     }
 }
@@ -47,7 +47,7 @@ pub struct Column {
     /// The name of the column.
     pub name: String,
     /// The number of components.
-    pub shape: Shape,
+    pub shape: ArrayShape,
     /// The numbers, point by point.
     pub values: Vec<f64>,
 }

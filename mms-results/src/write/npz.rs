@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 use rawzip::{CompressionMethod, ZipArchiveWriter};
 
-use super::{Column, Fact, Shape, State, Value};
+use super::{ArrayShape, Column, Fact, State, Value};
 
 /// The bytes of magic, version and length at the start of a header, which is padded to a multiple of 64.
 const START: usize = 10;
@@ -21,7 +21,7 @@ pub fn npz(state: &State, out: &mut dyn Write) -> io::Result<()> {
         let (axes, values) = (axes(column, state.dimension), column.values.iter());
         let whole = || values.clone().map(|value| (*value as i64).to_le_bytes());
         match column.shape {
-            Shape::Whole => member(&mut archive, &column.name, ("<i8", &axes), whole())?,
+            ArrayShape::Whole => member(&mut archive, &column.name, ("<i8", &axes), whole())?,
             _ => {
                 let bytes = values.map(|value| value.to_le_bytes());
                 member(&mut archive, &column.name, ("<f8", &axes), bytes)?;
@@ -48,11 +48,11 @@ pub fn npz(state: &State, out: &mut dyn Write) -> io::Result<()> {
 fn axes(column: &Column, dimension: usize) -> String {
     let rows = column.values.len() / column.shape.components(dimension);
     match column.shape {
-        Shape::Scalar | Shape::Whole => format!("{rows},"),
-        Shape::Vector => format!("{rows}, {dimension}"),
-        Shape::Tensor => format!("{rows}, {dimension}, {dimension}"),
-        Shape::Three => format!("{rows}, 3"),
-        Shape::Nine => format!("{rows}, 3, 3"),
+        ArrayShape::Scalar | ArrayShape::Whole => format!("{rows},"),
+        ArrayShape::Vector => format!("{rows}, {dimension}"),
+        ArrayShape::Tensor => format!("{rows}, {dimension}, {dimension}"),
+        ArrayShape::Three => format!("{rows}, 3"),
+        ArrayShape::Nine => format!("{rows}, 3, 3"),
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::io;
 
-use super::{Column, Shape, State};
+use super::{ArrayShape, Column, State};
 use crate::names::Axes;
 
 /// Letters of axes.
@@ -37,7 +37,7 @@ fn lines(state: &State, out: &mut dyn io::Write) -> io::Result<()> {
             for value in &column.values[row * size..][..size] {
                 // Writing to a `String` cannot fail.
                 let _ = match column.shape {
-                    Shape::Whole => write!(line, ",{value}"),
+                    ArrayShape::Whole => write!(line, ",{value}"),
                     _ => write!(line, ",{value:?}"),
                 };
             }
@@ -52,17 +52,19 @@ fn lines(state: &State, out: &mut dyn io::Write) -> io::Result<()> {
 /// for an axisymmetric field R, Z and r, z, u_r, F_rz.
 fn names(column: &Column, state: &State) -> Vec<String> {
     let name = &column.name;
-    let is_spatial = matches!(column.shape, Shape::Three | Shape::Nine);
+    let is_spatial = matches!(column.shape, ArrayShape::Three | ArrayShape::Nine);
     let rows = if is_spatial { 3 } else { state.dimension };
     let letters = letters(state.axes);
     let axes = || letters[..rows].iter();
     match (column.shape, name.as_str()) {
-        (Shape::Vector, "X") => axes().map(|axis| axis.to_uppercase()).collect(),
-        (Shape::Vector, "x") => axes().map(|axis| (*axis).to_owned()).collect(),
-        (Shape::Scalar | Shape::Whole, _) => vec![name.clone()],
+        (ArrayShape::Vector, "X") => axes().map(|axis| axis.to_uppercase()).collect(),
+        (ArrayShape::Vector, "x") => axes().map(|axis| (*axis).to_owned()).collect(),
+        (ArrayShape::Scalar | ArrayShape::Whole, _) => vec![name.clone()],
         _ if rows == 1 => vec![name.clone()],
-        (Shape::Vector | Shape::Three, _) => axes().map(|axis| format!("{name}_{axis}")).collect(),
-        (Shape::Tensor | Shape::Nine, _) => {
+        (ArrayShape::Vector | ArrayShape::Three, _) => {
+            axes().map(|axis| format!("{name}_{axis}")).collect()
+        }
+        (ArrayShape::Tensor | ArrayShape::Nine, _) => {
             axes().flat_map(|i| axes().map(move |j| format!("{name}_{i}{j}"))).collect()
         }
     }

@@ -7,7 +7,7 @@ use std::io::{self, Write};
 use base64::engine::general_purpose::STANDARD;
 use base64::write::EncoderWriter;
 
-use super::{Fact, Mesh, Shape, State, Value};
+use super::{ArrayShape, Fact, Mesh, State, Value};
 use crate::Cells;
 
 /// The type number of a vertex.
@@ -46,7 +46,7 @@ pub fn vtu(state: &State, mesh: Mesh<'_>, out: &mut dyn Write) -> io::Result<()>
     }
     out.write_all(b"</PointData>\n<Points>\n")?;
     let is_spatial = mesh.position.len() == 3 * points;
-    let shape = if is_spatial { Shape::Three } else { Shape::Vector };
+    let shape = if is_spatial { ArrayShape::Three } else { ArrayShape::Vector };
     numbers("position", shape, mesh.position, dimension, out)?;
     out.write_all(b"</Points>\n<Cells>\n")?;
     let whole = |values: &[usize]| -> Vec<u8> {
@@ -89,19 +89,19 @@ fn or_vertices(cells: &Cells, points: usize) -> Cow<'_, Cells> {
 
 fn numbers(
     name: &str,
-    shape: Shape,
+    shape: ArrayShape,
     values: &[f64],
     dimension: usize,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let bytes = |values: &[f64]| values.iter().flat_map(|value| value.to_le_bytes()).collect();
     let (kind, components, bytes): (_, _, Vec<u8>) = match shape {
-        Shape::Scalar => ("Float64", 1, bytes(values)),
-        Shape::Three => ("Float64", 3, bytes(values)),
-        Shape::Nine => ("Float64", 9, bytes(values)),
-        Shape::Vector => ("Float64", 3, bytes(&padded(values, dimension, [1, 3]))),
-        Shape::Tensor => ("Float64", 9, bytes(&padded(values, dimension, [dimension, 9]))),
-        Shape::Whole => {
+        ArrayShape::Scalar => ("Float64", 1, bytes(values)),
+        ArrayShape::Three => ("Float64", 3, bytes(values)),
+        ArrayShape::Nine => ("Float64", 9, bytes(values)),
+        ArrayShape::Vector => ("Float64", 3, bytes(&padded(values, dimension, [1, 3]))),
+        ArrayShape::Tensor => ("Float64", 9, bytes(&padded(values, dimension, [dimension, 9]))),
+        ArrayShape::Whole => {
             let bytes = values.iter().flat_map(|value| (*value as u64).to_le_bytes());
             ("UInt64", 1, bytes.collect())
         }

@@ -31,7 +31,7 @@ pub struct FacePoint<T, const D: usize> {
 /// The grid's geometry, and a function that finds the nodes and weights of a point
 /// ([`Shape::point`](crate::shape::Shape::point)).
 #[derive(Clone, Copy)]
-pub struct Point<'a, T: Real, const D: usize> {
+pub struct TractionPoint<'a, T: Real, const D: usize> {
     /// The nodes.
     pub lattice: &'a Lattice<T, D>,
     /// Finds the nodes and weights of a point.
@@ -94,7 +94,7 @@ impl<T: Real, const D: usize> Traction<T, D> {
         &mut self,
         field: &F,
         time: T,
-        point: Point<'_, T, D>,
+        point: TractionPoint<'_, T, D>,
         place: impl Fn(usize, &Vector<T, D>) -> FacePoint<T, D>,
         share: T,
         extensive: &mut [Nodal<T>],

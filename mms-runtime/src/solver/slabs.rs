@@ -66,7 +66,7 @@ pub(super) struct Cut {
 }
 
 /// The work for a slab, with its part of two arrays of nodes.
-type Work<'a, T, R, E> = dyn Fn(&Slab, [Window<'_, T>; 2]) -> Result<R, E> + Sync + 'a;
+type SlabWork<'a, T, R, E> = dyn Fn(&Slab, [Window<'_, T>; 2]) -> Result<R, E> + Sync + 'a;
 
 /// All slabs, and the order of the particles.
 pub(super) struct Slabs {
@@ -209,7 +209,7 @@ impl Slabs {
     pub fn each<T, R, E>(
         &self,
         nodes: [&mut [Nodal<T>]; 2],
-        work: &Work<'_, T, R, E>,
+        work: &SlabWork<'_, T, R, E>,
         join: &(dyn Fn(R, R) -> R + Sync),
     ) -> Result<R, E>
     where
@@ -248,7 +248,7 @@ impl Colour<'_> {
         &self,
         numbers: Range<usize>,
         nodes: [Window<'_, T>; 2],
-        work: &Work<'_, T, R, E>,
+        work: &SlabWork<'_, T, R, E>,
         join: &(dyn Fn(R, R) -> R + Sync),
     ) -> Result<R, E> {
         if numbers.len() == 1 {

@@ -9,7 +9,7 @@ use mms_math::simd::Simd;
 
 use super::g2p::{Advance, IsProvedSound, Residual};
 use super::p2g::{SlabError, Sums};
-use crate::boundary::traction::{Point, StencilOf};
+use crate::boundary::traction::{StencilOf, TractionPoint};
 use crate::column::PACK;
 use crate::column::{Matrices, Pack as _, Packs, Vectors};
 use crate::failure::Cause;
@@ -87,8 +87,8 @@ impl<T: Real, const D: usize> ShapeProperties<T, D> {
     }
 
     /// The geometry and stencils of points of a grid.
-    pub fn points<'a>(&self, lattice: &'a Lattice<T, D>) -> Point<'a, T, D> {
-        Point { lattice, stencil: self.point }
+    pub fn points<'a>(&self, lattice: &'a Lattice<T, D>) -> TractionPoint<'a, T, D> {
+        TractionPoint { lattice, stencil: self.point }
     }
 }
 

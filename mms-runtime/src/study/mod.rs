@@ -24,7 +24,7 @@ pub use order::{ObservedOrders, orders};
 pub use phase::{Phase, Phases};
 pub use refinement::{Refinement, differences};
 pub use run::{Details, Diagnostics, Run, Solve, Watch};
-pub use series::{NORMS, Point, Series, judge};
+pub use series::{NORMS, Series, StudyPoint, judge};
 pub use snapshots::Snapshots;
 
 use crate::failure::Refusal;

@@ -1,6 +1,6 @@
 //! Observed orders between levels.
 
-use super::{Point, StudyLevel};
+use super::{StudyLevel, StudyPoint};
 
 /// The observed orders between two levels, one per norm.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -15,5 +15,5 @@ pub struct ObservedOrders {
 
 /// The observed orders from one level to another, refined in space; `None` if either run stopped.
 pub fn orders(coarse: &StudyLevel, fine: &StudyLevel) -> ObservedOrders {
-    Point::of(fine).orders_from(&Point::of(coarse))
+    StudyPoint::of(fine).orders_from(&StudyPoint::of(coarse))
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::{Deviations, Errors, Point, Run, Series, StudyLevel};
+use super::{Deviations, Errors, Run, Series, StudyLevel, StudyPoint};
 use crate::extension::UnknownName;
 
 /// The quantity that is refined.
@@ -39,15 +39,15 @@ impl Refinement {
     }
 
     /// The error of one quantity in a run, the largest over time. Its floor is unknown.
-    pub fn point(self, run: &Run, quantity: fn(&Deviations) -> Errors) -> Point {
+    pub fn point(self, run: &Run, quantity: fn(&Deviations) -> Errors) -> StudyPoint {
         let errors = run.details.as_ref().map(|details| quantity(&details.largest));
-        Point { length: self.length(&run.level), errors, floor: 0.0 }
+        StudyPoint { length: self.length(&run.level), errors, floor: 0.0 }
     }
 
     /// The error of the displacement in a run, and the part due to round-off.
-    pub fn displacement(self, run: &Run) -> Point {
+    pub fn displacement(self, run: &Run) -> StudyPoint {
         let floor = run.details.as_ref().map_or(0.0, |details| details.round_off);
-        Point { floor, ..self.point(run, |errors| errors.displacement) }
+        StudyPoint { floor, ..self.point(run, |errors| errors.displacement) }
     }
 }
 
@@ -78,7 +78,7 @@ pub fn differences(runs: &[&Run]) -> Series {
     sorted.sort_by(|a, b| b.level.time_step.total_cmp(&a.level.time_step));
     Series::new(sorted.windows(2).map(|pair| {
         let noise = |run: &Run| run.details.as_ref().map_or(0.0, |details| details.round_off);
-        Point {
+        StudyPoint {
             length: pair[0].level.time_step,
             errors: pair[0].snapshots.distance(&pair[1].snapshots),
             floor: noise(pair[0]).hypot(noise(pair[1])),

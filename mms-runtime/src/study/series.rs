@@ -14,7 +14,7 @@ pub const NORMS: [(&str, Norm); 3] =
 
 /// The errors of one quantity on one level.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point {
+pub struct StudyPoint {
     /// The refined length: h or dt.
     pub length: f64,
     /// The errors; `None` if the run stopped.
@@ -23,11 +23,11 @@ pub struct Point {
     pub floor: f64,
 }
 
-impl Point {
+impl StudyPoint {
     /// The errors of the displacement on a level, refined in space.
     pub fn of(level: &StudyLevel) -> Self {
         let errors = level.errors.as_ref().ok().copied();
-        Point { length: level.cell_size, errors, floor: 0.0 }
+        StudyPoint { length: level.cell_size, errors, floor: 0.0 }
     }
 
     /// Whether the error may be entirely round-off.
@@ -36,7 +36,7 @@ impl Point {
     }
 
     /// The observed orders from a coarser point to this one; `None` if a run stopped.
-    pub fn orders_from(&self, coarse: &Point) -> ObservedOrders {
+    pub fn orders_from(&self, coarse: &StudyPoint) -> ObservedOrders {
         let (Some(e1), Some(e2)) = (&coarse.errors, &self.errors) else {
             return ObservedOrders::default();
         };
@@ -50,24 +50,24 @@ impl Point {
 /// The points of a study, from coarse to fine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
-    points: Vec<Point>,
+    points: Vec<StudyPoint>,
 }
 
 impl Series {
     /// A series of points in any sequence.
-    pub fn new(points: impl IntoIterator<Item = Point>) -> Self {
-        let mut points: Vec<Point> = points.into_iter().collect();
+    pub fn new(points: impl IntoIterator<Item = StudyPoint>) -> Self {
+        let mut points: Vec<StudyPoint> = points.into_iter().collect();
         points.sort_by(|a, b| b.length.total_cmp(&a.length));
         Self { points }
     }
 
     /// The series of the displacement, refined in space.
     pub fn of(levels: &[StudyLevel]) -> Self {
-        Self::new(levels.iter().map(Point::of))
+        Self::new(levels.iter().map(StudyPoint::of))
     }
 
     /// The points, from coarse to fine.
-    pub fn points(&self) -> &[Point] {
+    pub fn points(&self) -> &[StudyPoint] {
         &self.points
     }
 
@@ -79,7 +79,7 @@ impl Series {
             is_noise: point.is_noise(),
             rounding: 0.0,
         }))
-        .exact(!self.points.is_empty() && self.points.iter().all(Point::is_noise))
+        .exact(!self.points.is_empty() && self.points.iter().all(StudyPoint::is_noise))
     }
 
     /// Judges every norm against an expected order; the worst decides.
@@ -94,7 +94,7 @@ impl Series {
     /// Validation in Computational Science and Engineering, 1998, chapter 5), plus the round-off of the finest error. `None`
     /// with fewer than three levels above round-off.
     pub fn uncertainty(&self) -> Option<f64> {
-        let sound = self.points.iter().position(Point::is_noise).unwrap_or(self.points.len());
+        let sound = self.points.iter().position(StudyPoint::is_noise).unwrap_or(self.points.len());
         let [.., first, second, third] = &self.points[..sound] else { return None };
         let (before, last) = (second.orders_from(first).l2?, third.orders_from(second).l2?);
         let ratio = second.length / third.length;
@@ -127,7 +127,7 @@ mod tests {
         Series::new((0..levels).map(|k| {
             let length = 0.5f64.powi(k);
             let e = errors(length);
-            Point { length, errors: Some(Errors { l1: e, l2: e, linf: 2.0 * e }), floor }
+            StudyPoint { length, errors: Some(Errors { l1: e, l2: e, linf: 2.0 * e }), floor }
         }))
     }
 

@@ -9,7 +9,7 @@ use super::system;
 use crate::balance::{BalanceLaw, BalanceSpec};
 use crate::check::CheckSpec;
 use crate::diagnostic::Diagnostic;
-use crate::domain::{Body, DomainSpec};
+use crate::domain::{BodySpec, DomainSpec};
 use crate::field::FieldSpec;
 use crate::formula::Formula;
 use crate::material::MaterialSpec;
@@ -307,11 +307,11 @@ impl Checker<'_> {
 
     fn domain(&mut self, domain: &DomainSpec) {
         match &domain.body {
-            Body::Box { lower, upper } => {
+            BodySpec::Box { lower, upper } => {
                 let message = "the corners of the box must be lengths";
                 self.expect(lower.iter().chain(upper), Dimension::length(), message, None);
             }
-            Body::Round(round) => {
+            BodySpec::Round(round) => {
                 let message = format!("the radii of the {} must be lengths", round.shape.name);
                 let radii = round.inner.iter().chain([&round.outer]);
                 self.expect(radii, Dimension::length(), message, None);
@@ -321,12 +321,12 @@ impl Checker<'_> {
                 let angles = round.theta.iter().chain(&round.phi).flatten();
                 self.expect(angles, Dimension::NONE, message, None);
             }
-            Body::Polygon(polygon) => {
+            BodySpec::Polygon(polygon) => {
                 let message = "the vertices of the polygon must be lengths";
                 let vertices = polygon.vertices.iter().flatten();
                 self.expect(vertices, Dimension::length(), message, None);
             }
-            Body::Nothing => {}
+            BodySpec::Nothing => {}
         }
         let message = "the ends of the time window must be times";
         match domain.is_moved {

@@ -140,7 +140,7 @@ pub struct DefectRuns<'a> {
 }
 
 impl DefectRuns<'_> {
-    /// The verdicts of the quick levels of some rows, with a mistake in the program or without one.
+    /// Runs the quick levels of some rows, with a mistake in the program or without one, and returns their verdicts.
     ///
     /// # Errors
     /// The store cannot be read or written.

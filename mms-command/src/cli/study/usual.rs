@@ -3,7 +3,7 @@
 
 use mms_options::method::MethodOptions;
 use mms_runtime::{FormulationName, ShapeName};
-use mms_spec::{Body, FieldSpec};
+use mms_spec::{BodySpec, FieldSpec};
 
 use super::super::methods::Given;
 
@@ -32,7 +32,7 @@ fn formulation_for(shape: ShapeName, field: &FieldSpec) -> FormulationName {
 
 /// Whether the body is a box.
 pub fn is_box(field: &FieldSpec) -> bool {
-    matches!(field.domain.body, Body::Box { .. })
+    matches!(field.domain.body, BodySpec::Box { .. })
 }
 
 /// Options with the formulation and the shape function that were not given.
