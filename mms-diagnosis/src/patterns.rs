@@ -148,16 +148,18 @@ fn directions(components: usize) -> Vec<Vec<f64>> {
     (0..components).map(axis).chain((0..3 * components).map(other)).collect()
 }
 
+/// The index of the number that is written at an index.
+type Permutation = Box<dyn Fn(usize) -> usize>;
+
 /// An order in which a program may write points by mistake.
 struct PointOrder {
     name: String,
-    /// The index of the number that is written at an index.
-    of: Box<dyn Fn(usize) -> usize>,
+    of: Permutation,
 }
 
 /// The orders that people confuse, for a list of points in D dimensions.
 fn orders(points: usize, components: usize, dimension: usize) -> Vec<PointOrder> {
-    let of_points = |name: String, of: Box<dyn Fn(usize) -> usize>| PointOrder {
+    let of_points = |name: String, of: Permutation| PointOrder {
         name,
         of: Box::new(move |k| of(k / components) * components + k % components),
     };
@@ -194,7 +196,7 @@ fn grids(points: usize, dimension: usize) -> Vec<Vec<usize>> {
 }
 
 /// The orders of a grid in which the loops over the axes are nested otherwise. The last axis of `edges` runs fastest.
-fn transposed(edges: &[usize]) -> Vec<(String, Box<dyn Fn(usize) -> usize>)> {
+fn transposed(edges: &[usize]) -> Vec<(String, Permutation)> {
     let nestings: &[&[usize]] = match edges.len() {
         2 => &[&[1, 0]],
         _ => &[&[2, 1, 0], &[0, 2, 1], &[1, 0, 2], &[1, 2, 0], &[2, 0, 1]],
@@ -211,7 +213,7 @@ fn transposed(edges: &[usize]) -> Vec<(String, Box<dyn Fn(usize) -> usize>)> {
             }
             nesting.iter().fold(0, |index, axis| index * edges[*axis] + at[*axis])
         };
-        (name, Box::new(of) as Box<dyn Fn(usize) -> usize>)
+        (name, Box::new(of) as Permutation)
     };
     nestings.iter().map(one).collect()
 }

@@ -3,6 +3,8 @@
 //! A right solver fails if its results are compared with the field at another time than theirs, as with a time that a file
 //! prints in three digits, or with another value of a parameter, as after a forgotten `--set`.
 
+use std::cmp::Ordering;
+
 use mms_exact::Exact;
 use mms_results::motion::Motion;
 use mms_spec::number::short;
@@ -138,7 +140,7 @@ impl Sample {
             let by = along(&error, &slope).clamp(-longest, longest);
             let next = error_of(value + by)?;
             // NaN for a parameter that does not change u.
-            if !(square(&next) < square(&error)) {
+            if square(&next).partial_cmp(&square(&error)) != Some(Ordering::Less) {
                 break;
             }
             (value, error) = (value + by, next);
@@ -149,7 +151,8 @@ impl Sample {
         let times = (square(&first) / square(&error)).sqrt();
         let name = &exact.input().compiled.model.parameters[at].name;
         let setting = format!("{name}={}", short(value));
-        let is_better = times >= BETTER[1] && exact.input().settings(&[setting.clone()]).is_ok();
+        let is_better =
+            times >= BETTER[1] && exact.input().settings(std::slice::from_ref(&setting)).is_ok();
         let question = || {
             format!(
                 "did your solver use another {name} than {}? With `--set {setting}` the error of u is {} times smaller",
