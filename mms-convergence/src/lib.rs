@@ -5,8 +5,8 @@
 //! numerical uncertainty of CFD calculations based on grid refinement studies, J. Comput. Phys. 262 (2014) 104-130: least
 //! squares, with the scatter of the residuals as the measure of noise.
 //!
-//! Errors e_i of one norm on levels h_i (or dt_i) make a [`Sequence`]; several errors of one h are replicates. [`NormFinding::of`]
-//! compares it with an [`ExpectedOrder`] order p:
+//! Errors e_i of one norm on levels h_i (or dt_i) make a [`Sequence`]; several errors of one h are replicates.
+//! [`NormFinding::of`] compares it with an [`ExpectedOrder`] p:
 //!
 //! | levels | fit | result |
 //! |---|---|---|

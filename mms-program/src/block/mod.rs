@@ -1,9 +1,9 @@
 //! A block interpreter: runs programs over many points; every operation is a loop over a block of points (structure of arrays).
 //!
-//! A [`BlockPlan`] lists the steps, and is made once for some outputs; all threads, parameters and precisions share it. [`Prepared`]
-//! has the values of the stage Parameter for one set of parameters. A [`Scratch`] has the values of the stage Time for one
-//! time, and the registers; one thread uses it at a time. So a new parameter runs the stage Parameter, a new time runs the
-//! stage Time, and nothing is allocated after the first use of a `Scratch`.
+//! A [`BlockPlan`] lists the steps, and is made once for some outputs; all threads, parameters and precisions share it.
+//! [`Prepared`] has the values of the stage Parameter for one set of parameters. A [`Scratch`] has the values of the stage Time
+//! for one time, and the registers; one thread uses it at a time. So a new parameter runs the stage Parameter, a new time runs
+//! the stage Time, and nothing is allocated after the first use of a `Scratch`.
 //!
 //! With fused products, results have the bits of compiled loops. With rounded products, they have the bits of compiled
 //! functions of one point and of the reference interpreter, on all processors. The other outputs of a plan do not change the
