@@ -29,11 +29,11 @@
 //! * `exact to round-off`: the caller knows that every error is at round-off ([`Sequence::exact`]).
 //!
 //! ```
-//! use mms_convergence::{Expected, Finding, Sample, Sequence, Verdict};
+//! use mms_convergence::{ExpectedOrder, NormFinding, Sample, Sequence, Verdict};
 //!
 //! let hidden = |h: f64| Sample::new(h, 0.8 * h * h + 0.2 * h / 16.0);
 //! let levels = Sequence::new([1.0, 0.5, 0.25, 0.125, 0.0625].map(hidden));
-//! let finding = Finding::of(&levels, Expected::new(2.0, 0.15));
+//! let finding = NormFinding::of(&levels, ExpectedOrder::new(2.0, 0.15));
 //! assert_eq!(finding.verdict, Verdict::Fail);
 //! let term = finding.term.expect("a second term");
 //! assert!((term.order - 1.0).abs() < 1e-12 && (term.share - 0.2).abs() < 1e-9);
