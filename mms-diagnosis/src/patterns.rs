@@ -102,11 +102,11 @@ impl<const D: usize> Wrong<'_, D> {
             found.ranked[0].which = Some(name.into());
             return Some(found);
         }
-        let apart = self.apart();
-        (self.is_far() && apart < PERMUTED * off).then(|| named(PERMUTATION, [off, apart], scale))
+        let apart = if self.is_far() { self.apart() } else { f64::INFINITY };
+        (apart < PERMUTED * off).then(|| named(PERMUTATION, [off, apart], scale))
     }
 
-    /// The error that is left if the number at index k belongs to index `of(k)`, over the whole error; from a sample.
+    /// The error that is left if the number at index k belongs to index `of(k)`, divided by the whole error; from a sample.
     fn left(&self, of: &dyn Fn(usize) -> usize) -> f64 {
         let step = (self.computed.len() / SAMPLE) | 1;
         let (mut left, mut all) = (0.0, 0.0);

@@ -44,9 +44,11 @@ const BETTER: [f64; 2] = [3.0, 10.0];
 const MOST: f64 = 1e6;
 /// The relative step of differences by a parameter.
 const STEP: f64 = 1e-6;
-/// The most steps of Gauss and Newton; the largest, and the least one that counts, over the value.
+/// The most steps of Gauss and Newton.
 const STEPS: usize = 16;
+/// The longest step, divided by the value.
 const LONGEST: f64 = 0.5;
+/// The shortest step that is followed by another one, divided by the value.
 const SHORTEST: f64 = 1e-9;
 
 impl Sample {
@@ -57,7 +59,7 @@ impl Sample {
         Some(Sample { is_exact, ..Self::of_points(time, x, u, exact) })
     }
 
-    /// Some of these points at a time that may be rounded in a known way, so that no other time is tried.
+    /// Some of these points, for questions about parameters alone.
     pub fn of_points(time: f64, reference: &[f64], displacement: &[f64], exact: &Exact) -> Self {
         let components = exact.components(Quantity::Displacement);
         let step = (displacement.len() / components / POINTS) | 1;
@@ -123,6 +125,9 @@ impl Sample {
     /// A value of a parameter, by the method of Gauss and Newton.
     fn with_parameter(&self, exact: &Exact, at: usize) -> anyhow::Result<Option<Better>> {
         let stated = exact.parameters()[at];
+        if !stated.is_finite() {
+            return Ok(None);
+        }
         let error_of = |value: f64| match exact.with_parameter(at, value) {
             Some(mut varied) => self.error(&mut varied),
             None => Ok(vec![f64::NAN]),
