@@ -1,4 +1,5 @@
-//! The statistics of the errors of a study: the observed order, its interval, the terms behind it, and a verdict.
+//! The statistics of the errors of a study: the observed order, its interval, the terms of the error that change it, and a
+//! verdict.
 //!
 //! The exact solution is known, and so is every error. The uncertain quantity is the order of the errors, not the solution:
 //! there is no grid convergence index here. The method follows L. Eca and M. Hoekstra, A procedure for the estimation of the
@@ -10,22 +11,27 @@
 //!
 //! | levels | fit | result |
 //! |---|---|---|
-//! | 2 | the order ln(e1/e2)/ln(h1/h2) | the order alone, which is compared with the expected one, without a test for settling |
-//! | 3 | two orders p1, p2 | the [interval](Estimate): p1, p2, and p2 + 1.25 (p2 - p1)/(r - 1), the possible end of the drift |
-//! | 4 and more, or replicates | ln e = ln C + p ln h | the 95 % interval by Student's t, from the scatter |
-//! | 3 and more | e = C h^p + D h^(p-1) + E h^(p+1) | the [share](Share) of D in the finest error, which decides |
-//! | 3 and more | e = C h^p + D h^q, q of 0, p - 1, p + 1, p + 2 | the [second term](ErrorTerm) that explains a drift, its share and the length at which it takes over |
-//! | 4 and more | e = e0 + C h^p | the [limit](Limit): consistent, if the interval of e0 contains 0 |
+//! | 2 | the order ln(e1/e2)/ln(h1/h2) | the order, compared with p; two levels cannot show whether it still drifts |
+//! | 3 | two orders p1, p2 | the [interval](Estimate) from the least to the greatest of p1, p2 and p2 + 1.25 (p2 - p1)/(r - 1) |
+//! | 4 and more, or replicates | ln e = ln C + p ln h | the 95 % interval of the order by Student's t, from the scatter |
+//! | 3 and more | e = C h^p + D h^(p-1) + E h^(p+1) | the [share](Share) s of the term D h^(p-1) in the finest error |
+//! | 3 and more | e = C h^p + D h^q, q one of 0, p - 1, p + 1, p + 2 | the [second term](ErrorTerm) that explains a drift, its share, and the length at which both terms are equal |
+//! | 4 and more | e = e0 + C h^p with free p | the [limit](Limit) e0: the method is consistent if the interval of e0 contains 0 |
 //!
-//! A share s of the term h^(p-1) lowers the order on the finest level by s. It is known to within u, three quarters of its
-//! standard deviation. The scatter behind u includes the scatter about the fit, a further level with a deviation of 2.5 %, and
-//! printed digits. If errors follow a power law to 0.1 %, its order is judged instead of p - s. For two levels, their order is
-//! judged; beside an l2, their l1 and linf fail only if the order is too low by more than half an order.
+//! For three levels, r is the ratio h2/h3 of the two finer lengths, and the third number bounds the further drift of the order.
 //!
-//! * `pass`: s + u is at most the tolerance, and the order is not above.
-//! * `fail`: s - u is more than the tolerance, and the order of the finest pair is low too. Also if errors level off:
-//!   e0 is known to a fifth, and lowers the order by twice the tolerance. Also if a run stopped.
-//! * `not asymptotic`: otherwise; also if the order is above p by more than the tolerance and u.
+//! With three levels or more, the share s decides the verdict: it lowers the order on the finest level by s. The interval of the
+//! share is s - u to s + u, where u is three quarters of the standard deviation of s. This deviation is computed from the
+//! residuals of the fit, from a scatter of 2.5 % with the weight of one more level, and from the rounding of printed digits. If
+//! errors scatter about one power law by at most 0.1 %, the order of the power law is judged, and s is not used. With two
+//! levels, the order of the pair is judged; if l2 is judged too, l1 and linf of two levels fail only if their order is more than
+//! 0.5 too low.
+//!
+//! * `pass`: s + u is at most the tolerance, and the order is not above p by more than the tolerance and u.
+//! * `fail`: s - u is more than the tolerance, and the order of the finest pair is low too. A study also fails if its errors
+//!   level off: the half width of the interval of e0 is at most a fifth of e0, and e0 lowers the order by more than twice the
+//!   tolerance. A study also fails if a run stopped.
+//! * `not asymptotic`: otherwise.
 //! * `exact to round-off`: the caller knows that every error is at round-off ([`Sequence::exact`]).
 //!
 //! ```
