@@ -1,5 +1,5 @@
-//! The field `bar_1d`, compiled by `field!`. It has its own crate, so that other fields and pages of the command do not
-//! recompile it.
+//! The field `bar_1d`, compiled by `field!`. The field has its own crate, so that a change of other fields or of the
+//! command does not recompile it.
 
 use mms_runtime::scene::Code;
 

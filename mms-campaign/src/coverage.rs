@@ -1,4 +1,4 @@
-//! The smallest set of candidates that together show every term that one of them shows.
+//! The smallest set of candidates that shows every term that any candidate shows.
 
 use std::collections::BTreeSet;
 
@@ -11,8 +11,8 @@ pub struct Candidate {
     pub terms: BTreeSet<String>,
 }
 
-/// The positions, sorted by cost, of the smallest set of candidates that together show every term that one of them shows: the
-/// cheapest of several such sets.
+/// The positions, sorted by cost, of the smallest set of candidates that shows every term that any candidate shows: the cheapest
+/// of several such sets.
 pub fn smallest(candidates: &[Candidate]) -> Vec<usize> {
     let wanted: BTreeSet<&String> = candidates.iter().flat_map(|it| &it.terms).collect();
     let mut search = Search { candidates, best: None };

@@ -18,7 +18,7 @@
 //! | `error` | the codes and messages |
 //! | `memory` | the only code that accesses the memory of the caller: it checks addresses before they become slices and texts, and writes results through pointers, never through references |
 //! | `abi` | the functions, from which `mms_capi.h` is generated |
-//! | `border` | conversion of panics and errors to codes and messages; compiles on a separate thread, for the stack of the caller may be small |
+//! | `border` | converts panics and errors to codes and messages, and compiles on a separate thread, since the stack of the caller may be small |
 //!
 //! `interleavings/`, a separate package, tries all orders of threads. `fields` is a link to the gallery, so that the crate can
 //! be packaged.

@@ -45,7 +45,7 @@ pub struct Report {
     pub warnings: Vec<Diagnostic>,
     /// The lines for people; the first has the title.
     pub lines: Vec<String>,
-    /// The document, without a next command.
+    /// The document. Its `next_command` is null; the command fills it in.
     pub document: CheckedFile,
     /// Whether every claim and closed form holds.
     pub passes: bool,
@@ -63,7 +63,6 @@ pub fn check(path: &Foreign, compiled: &Arc<Compiled>, options: CheckOptions) ->
     let rest = rest::stress(compiled);
     certificate.spent.extend(skipped_checks(compiled, &rest));
     let objections = certificate.objections(compiled);
-    // A check at no point does not count as passed.
     let stability = judge(compiled);
     certificate.spent.extend(stability.is_spent.then(|| "what grows on the motion".to_string()));
     let lost = match &certificate.ellipticity {
@@ -72,6 +71,7 @@ pub fn check(path: &Foreign, compiled: &Arc<Compiled>, options: CheckOptions) ->
     };
     let growing = warnings(compiled, &stability, lost);
     let solved = options.solve.then(|| solve(compiled));
+    // If u is evaluated at no point, the check does not pass.
     let is_seen = undefined::points(compiled) > 0 && compared.all_agree();
 
     let notes = doubly_named(compiled);
@@ -178,7 +178,7 @@ fn name_lines(notes: &[String]) -> impl Iterator<Item = String> {
     notes.iter().map(|note| format!("  name   {note}"))
 }
 
-/// The other checks that were skipped, or made at fewer points, because they take too long.
+/// The parts of the report, beside the proofs, that were skipped or reduced because they take too long.
 fn skipped_checks(compiled: &Compiled, rest: &Rest) -> Vec<String> {
     let mut skipped = Vec::new();
     if undefined::points(compiled) < undefined::POINTS {
@@ -220,7 +220,7 @@ pub fn located(sources: &Sources, diagnostic: &Diagnostic) -> documents::Diagnos
     }
 }
 
-/// The lines about a component of u without a value as written.
+/// The lines about a component of u whose formula, as the file writes it, has no value at some points.
 fn gap_lines(compiled: &Compiled, gap: &Gap) -> [String; 2] {
     let (at, time) = &gap.first;
     let what = match gap.component {

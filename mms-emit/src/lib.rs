@@ -1,8 +1,8 @@
 //! Emitters: each prints a program as text of one target language. They neither differentiate nor reorder.
 //!
 //! Each language has a folder here and its word in the list below. All except one are ports, and [`port`] holds their common
-//! parts. The Rust module `rust-mms-math`, which `field!` also expands to, has a printer of its own: it shares the scalars,
-//! the vectorised loops and the bits of `mms-math`. The target `rust` is a port without a dependency. An emitted Rust file has
+//! parts. The target `rust-mms-math` has its own printer. It writes the module to which `field!` expands, which uses the
+//! scalars and the vectorised loops of `mms-math`, and so has the same bits. The target `rust` is a port without a dependency. An emitted Rust file has
 //! the kernels without the contract, and no attribute of the whole file, so that it can be a module or be included in one.
 //! Fortran also has an interface for C, which passes arrays of points on to its elemental procedures.
 

@@ -65,7 +65,7 @@ pub struct Set {
 
 /// The storage of an array.
 enum Storage {
-    /// In HDF5; and whether the array is compressed there, and may be longer than the file.
+    /// A data set of HDF5. The flag is true if it is compressed, so that its decoded bytes may be more than the file has.
     Tree(Box<hdf5_reader::Dataset>, bool),
     Classic(usize),
     /// Listed by its group, but cannot be opened.
@@ -197,7 +197,7 @@ impl Store {
         let needed = set.count().and_then(|it| it.checked_mul(size));
         let needed = needed.ok_or_else(|| Fault::of("no file holds as many numbers"))?;
         if matches!(set.place, Storage::Tree(_, false)) && needed as u64 > self.length + LEAST {
-            // None of the array may be stored: then all of it is one fill value.
+            // The file probably stores no element of such an array, so that each is the fill value: it is refused as unread.
             let what = format!("{needed} bytes, and the file has {}", self.length);
             return Err(Fault { what, is_foreign: true });
         }

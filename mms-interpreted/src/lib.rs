@@ -54,8 +54,8 @@ struct SolverOutput<T: Blockwise> {
     pool: ScratchPool<T>,
 }
 
-/// The outputs, each with the same bits as compiled code: there the first three are loops over many points, and the others are
-/// computed point by point.
+/// The outputs, each in the mode that computes the bits of compiled code. Compiled code evaluates the first three in loops over
+/// many points, with fused products, and the others point by point.
 fn solver_outputs<T: Blockwise>() -> [SolverOutput<T>; OUTPUTS] {
     let (fused, portable) = (BlockMode::fused(), BlockMode::portable());
     [

@@ -1,8 +1,8 @@
 //! Rust macros around the field compiler: `field!` reads the file, calls the compiler and returns its code.
 //!
 //! The module that `field!` makes includes the bytes of its file, so that Cargo detects a change in any crate that uses it.
-//! Procedural macros run unoptimised by default, even in a release build; the workspace's profiles optimise them, since the
-//! derivation runs in one.
+//! Procedural macros run unoptimised by default, even in a release build; the workspace's profiles optimise them, since
+//! `field!` runs the derivation.
 
 mod request;
 
@@ -57,12 +57,12 @@ use request::Request;
 /// | `form = "fast"` | uses the fewest operations, at the cost of accuracy if strains are small; `"stable"`, the default, computes every quantity to 64 eps of its largest magnitude |
 /// | `name = other` | names the module, so that two modules of one file can exist |
 ///
-/// A parameter that depends on others and is frozen without them keeps the value of their defaults.
+/// A frozen parameter that depends on parameters that are not frozen keeps the value that follows from their defaults.
 ///
 /// # Precision
 ///
 /// A module computes in any scalar: `f32`, `f64`, or `mms_math::Double`, which has twice the digits of `f64`. Terms that do not
-/// depend on the position are computed with twice the digits in each. Loops over many points and the traits of a solver
+/// depend on the position are computed in a scalar with more digits, `Scalar::Wide`, if there is one. Loops over many points and the traits of a solver
 /// (`boxed`) support `f32` and `f64`.
 ///
 /// ```ignore
@@ -117,7 +117,8 @@ fn expand(request: &Request) -> Result<proc_macro2::TokenStream> {
     })
 }
 
-/// Mistakes of the file at its path, and each mistake of the selection at its place in the call.
+/// The compile errors of a refused field: all mistakes of the file are reported at its path in the call, and each mistake of the
+/// selection at its option.
 fn refused(request: &Request, failure: Failure) -> Error {
     let Failure { sources, diagnostics } = failure;
     let (of_the_call, of_the_file): (Vec<_>, Vec<_>) =

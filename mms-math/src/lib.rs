@@ -62,7 +62,8 @@ pub use lane::{Lane, NEAR_ZERO, WITHIN_ONE};
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// The largest number of half turns that [`Scalar::within_turns_pi`] does not change: sums with it lose no significant digits.
+/// The largest number of half turns from which [`Scalar::within_turns_pi`] subtracts no turns: sums with so small an angle lose
+/// no significant digits.
 pub const FEW_HALF_TURNS: f64 = 8.0;
 
 /// The largest number of radians that [`Scalar::within_turns`] does not change.

@@ -9,8 +9,8 @@
 //! B - I = H + H^T + H H^T          j  = the sum of the principal minors of H
 //! ```
 //!
-//! A density has one of three kinds (`invariant`): a function of I1, I2, I3 = J^2 and J; of these and I4; or of the small
-//! strain. Only the quantities that its kind needs are derived.
+//! A strain-energy density has one of three kinds (`invariant`): a function of I1, I2, I3 = J^2 and J; of these and I4; or of
+//! the small strain. Only the quantities that its kind needs are derived.
 //!
 //! The solver needs the material without the field. The same `Law` is therefore evaluated a second time at a gradient H that
 //! the caller supplies: W(H), P(H), tau(H), with rho0(X) and the fastest wave speed at F = I, sqrt(dP_11/dF_11 / rho0); with

@@ -37,7 +37,7 @@
 //! | `interpret`, `block` | the reference interpreter, one point at a time; programs over blocks of points |
 //! | `fusion`, `loops` | the products to fuse, and the loops over points; the same decisions for interpreted and emitted code |
 //! | `computed`, `precision` | bounds of rounding errors of a program; the precisions that code is generated for |
-//! | `operation_cost` | the steps that an operation costs a budget |
+//! | `operation_cost` | the number of steps that an operation subtracts from a budget |
 //!
 //! The caller defines the keys of the outputs.
 

@@ -9,7 +9,7 @@
 //! | `array` | the shape and the numbers of an argument, and the array that is returned |
 //! | `evaluator` | one output at many points, by several threads |
 //! | `follow` | the progress of long work, and its end at an interrupt |
-//! | `open` | opens and compiles a field, and stops where Python has an interrupt |
+//! | `open` | opens and compiles a field, and stops if Python receives an interrupt (Ctrl-C) |
 //! | `opened` | a field with numbers for its parameters: all its outputs |
 //! | `kept` | what X alone determines, kept for other times |
 //! | `show` | the derivation, for people |

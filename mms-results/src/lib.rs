@@ -3,8 +3,8 @@
 //! A file is recognised by its content: a table with a header, VTK in XML or in the legacy format, NumPy, MATLAB, CalculiX,
 //! Gmsh, Tecplot, dumps of particles. Readers return a [`Snapshot`]: points, cells, and named arrays of numbers, each with the
 //! precision in which it was stored. [`names`] finds the arrays of displacement, velocity and so on; [`norm`] measures errors
-//! over points, [`over_cells`] over the [cells](cell) of a [`mesh`], and [`comparison`] block by block of the exact solution;
-//! [`pairing`] finds the same points in two results; [`own`] removes ghosts and duplicates, and [`lattice`] finds neighbours.
+//! over points, and [`over_cells`] over the [cells](cell) of a [`mesh`]. [`comparison`] compares with the exact solution in
+//! blocks, so that no array contains all of it. [`pairing`] finds the same points in two results; [`own`] removes ghosts and duplicates, and [`lattice`] finds neighbours.
 //! [`write`](mod@write) writes such files of a known state. [`wanted`] selects the arrays to read, and limits the memory.
 //!
 //! Nothing here opens a file, evaluates a field, or decides whether an error is small.

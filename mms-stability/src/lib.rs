@@ -6,7 +6,7 @@
 //! |---|---|---|
 //! | short waves in the body | an acoustic tensor is not positive definite | `waves` |
 //! | short waves on a face that can move | the surface impedance is not positive definite | `faces`, `impedance` |
-//! | short disturbances at a corner of such faces | the second variation of a quadrant is not positive | `corners` |
+//! | short disturbances at a corner of such faces | the second variation of the energy is not positive for displacements of the quadrant between both faces | `corners` |
 //! | long waves | the tangent on a coarse mesh has a negative eigenvalue | `growth` |
 //!
 //! These modules sample, at the defaults of the parameters, and prove nothing. The proof of strong ellipticity is in

@@ -1,7 +1,7 @@
 //! Exact states of a field, at any points and times, for any solver.
 //!
-//! [`points`] determines the places: points of a file, particles of a grid, or the material at given places
-//! ([`inverse_motion`](mms_analysis::inverse_motion)). [`State`]s contain the field's quantities there, and [`file`](mod@file)
+//! [`points`] determines the points: X from a file, the particles of a grid, or the material points at given present places
+//! x ([`inverse_motion`](mms_analysis::inverse_motion)). [`State`]s contain the field's quantities there, and [`file`](mod@file)
 //! writes them; [`domain`] adds the data that a solver needs once.
 
 pub mod domain;

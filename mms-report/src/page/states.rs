@@ -142,7 +142,7 @@ impl Section for States {
         let errors = || self.drawn.iter().flat_map(|it| it.particles.iter().map(|it| it.1));
         let largest = errors().fold(0.0, f64::max);
         let least = errors().fold(f64::INFINITY, f64::min).max(LEAST * largest);
-        // Without errors, or with one alone, there are no steps between them.
+        // If all errors are equal, or there are none, there is no logarithmic range to divide into colours.
         let range =
             if least < largest { [least, largest] } else { [0.0, largest.max(f64::MIN_POSITIVE)] };
         let scale = Scale { name: "error of u".into(), range, is_logarithmic: least < largest };

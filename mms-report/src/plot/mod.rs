@@ -102,7 +102,8 @@ pub enum Line {
 }
 
 impl Curve {
-    /// The curve in the style of that number: with full marks, then with rings.
+    /// Styles the curve: `number` modulo [`STYLES`] selects colour, mark and dashes. The first [`STYLES`] numbers have full marks,
+    /// the next ones rings, and so on in turn.
     pub fn styled(self, number: usize) -> Self {
         Curve { style: number % STYLES, is_hollow: number / STYLES % 2 == 1, ..self }
     }
@@ -160,7 +161,7 @@ struct Area {
 const ON_PAGE: [f64; 2] = [640.0, 400.0];
 const AREA_ON_PAGE: Area = Area { left: 76.0, right: 628.0, top: 12.0, bottom: 348.0 };
 
-/// The height of the 1 between a triangle and the axis, in pixels.
+/// The height reserved below a triangle for its label `1`, in pixels.
 const BELOW_TRIANGLE: f64 = 17.0;
 
 /// The positions of numbers on the picture.
@@ -197,7 +198,7 @@ impl Plot {
         self.points().next().is_none()
     }
 
-    /// The plot without a head, its curves named by that head, or by the name of their file.
+    /// Removes the head. The name of each curve then begins with the head or, if the plot had none, with the name of the file.
     pub fn named(mut self, file: &str) -> Self {
         let head = std::mem::take(&mut self.head);
         let of = if head.is_empty() { file } else { &head };
@@ -249,7 +250,7 @@ impl Plot {
         let all = || self.points().chain(triangle.into_iter().flatten()).chain(floor.clone());
         let (mut least, greatest) = span(all().map(|[_, y]| y), 1.8);
         if let Some([[_, base], ..]) = triangle {
-            // The 1 below the triangle lies above the axis.
+            // The label `1` below the triangle must lie above the axis.
             let part = BELOW_TRIANGLE / (area.bottom - area.top);
             let lower = ((base.ln() - part * greatest.ln()) / (1.0 - part)).exp();
             least = least.min(lower).max(least.min(*SHOWN.start()));

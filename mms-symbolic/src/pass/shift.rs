@@ -1,6 +1,6 @@
 //! Reuses a subexpression that differs by a constant from another one: if x^2 - 1/16 occurs as a factor or as an operand, a
-//! x^2 + b in other sums becomes a (x^2 - 1/16) + (a/16 + b). The product x^2 then has one reader and is fused with it; the
-//! constant that is added elsewhere needs no X.
+//! x^2 + b in other sums becomes a (x^2 - 1/16) + (a/16 + b). Only x^2 - 1/16 then reads the product x^2, so that both are
+//! fused to one operation. The other sums add a/16 + b, which does not depend on X.
 //!
 //! If the constant is large, x^2 loses its digits. Callers test the result with `mechanics::rounding`.
 
