@@ -5,8 +5,9 @@
 //! bits. If 1536 bits change a value by more than 2^-136 of its quantity, it has 1536, and then 4096; a quantity that needs
 //! more is left out.
 //!
-//! Infinite and NaN components are counted, separately from components whose true value is beyond the range, and enter no
-//! error; so are components without a real value. Magnitudes below the least normal number count as the least normal number.
+//! Infinite and NaN components enter no error. They are counted (`not_finite`), and among them the components whose true value
+//! is beyond the range (`overflowed`). Components whose true value is not real enter no error either, and have their own count
+//! (`undefined`). Magnitudes below the least normal number count as the least normal number.
 
 mod errors;
 mod points;
@@ -41,8 +42,8 @@ use mms_spec::quantity::Quantity;
 use mms_symbolic::expr::Rational;
 use mms_symbolic::sorted::SortedMap;
 
-/// The least number of points at which J is searched, so that a regime does not depend on the requested number of points if
-/// that is smaller.
+/// The least number of points at which J is searched. A regime is therefore the same for all requested numbers of points up to
+/// this one.
 const SEARCHED: usize = 1000;
 
 /// The number of points at which the digits of the reference are checked.

@@ -298,7 +298,7 @@ fn parameters(graph: &mut Graph, compiled: &Compiled) -> Vec<(Term, Vec<Expr>)> 
     field.material.arguments.iter().enumerate().map(term).collect()
 }
 
-/// Div P of a model, reduced as far as possible; a rotation then has no ln J.
+/// Div P of a model, reduced as far as possible, so that for example ln J becomes 0 if the motion is a rotation.
 fn divergence(graph: &mut Graph, model: &Model) -> Vec<Expr> {
     let relations = Relations::find(graph, &model.displacement);
     let reduced = graph.attempt(|graph| derive(graph, model, &relations, Route::Gradient));

@@ -9,12 +9,13 @@
 //! the digits, of an angle above 2^50. Values of the last two stages have the precision that is proved; values of the first two
 //! stages have twice its digits.
 //!
-//! `f64` is part of the verdict that everything is finite. `f32` has a line of its own, and is an error of `mms run` and `mms
-//! study` only if it fails at a corner or in the middle.
+//! The verdict for `f64` is part of the verdict that everything is finite. The verdict for `f32` has its own line in the report;
+//! `mms run` and `mms study` report an error only if a quantity cannot be computed in `f32` at a corner or in the middle of the
+//! chart.
 //!
-//! The errors of the angles of sines, cosines and tangents bound how many of their digits are right. Whole turns are taken off
-//! an angle such as c t. The exact result is defined with the same number of turns taken off as the computed one; so for angles
-//! of more than a few turns only the size of the result is known.
+//! The errors of the angles of sines, cosines and tangents bound how many of their digits are right. The program subtracts whole
+//! turns from an angle such as c t. The bound of the error compares with the exact angle after as many turns are subtracted.
+//! That number is uncertain for angles of more than a few turns, so that only the largest magnitude of the reduced angle is known.
 
 use mms_math::Scalar as _;
 

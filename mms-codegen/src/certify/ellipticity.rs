@@ -78,7 +78,7 @@ fn judged(found: &SearchResult) -> Ellipticity {
     }
 }
 
-/// The states of isotropic matter: principal stretches, with J, and what else its stress depends on.
+/// The states of isotropic matter: principal stretches, J, and the variables of the chart on which the stress depends.
 struct States<'a> {
     chart: &'a Chart,
     dimension: usize,
@@ -136,7 +136,7 @@ impl<'a> States<'a> {
 struct Compliance<'a> {
     chart: &'a Chart,
     tangent: Tangent<'a>,
-    /// A place of one state where it may be infinite: then smaller cells cannot decide.
+    /// The place of a state at which the bound is infinite even for this state alone, so that smaller cells cannot decide.
     lost: Option<Vec<f64>>,
 }
 
@@ -294,7 +294,7 @@ type Multiple = ([[usize; 2]; 2], f64);
 struct Shifts<'a> {
     tensor: &'a [f64],
     dimension: usize,
-    /// The change of each multiple per unit of the part that `best` searches.
+    /// The change of each multiple per unit of the number `part`, which `best` optimises.
     step: f64,
     /// An upper bound of every least eigenvalue.
     most: f64,
@@ -309,7 +309,8 @@ impl<'a> Shifts<'a> {
         Shifts { tensor, dimension: order.isqrt(), step, most }
     }
 
-    /// The multiples that separate the shears of two axes, each plus `part` times `step`. `part` is 0 except in two dimensions.
+    /// The multiples that cancel the entries A_iLkJ, which couple the two shears of a pair of axes; each is changed by `part` times
+    /// `step`. `part` is 0 except in two dimensions.
     fn multiples(&self, part: f64) -> Vec<Multiple> {
         let size = self.dimension;
         let pairs = || (0..size).flat_map(|a| (a + 1..size).map(move |b| [a, b]));

@@ -100,8 +100,8 @@ fn is_bounded(value: &Interval) -> bool {
     value.is_defined() && value.farthest().is_finite()
 }
 
-/// The variable across which to split a cell: one whose width alone keeps it from being `well`, else
-/// the widest.
+/// The variable along which to split a cell: the first variable without whose width the cell would satisfy `well`, or else the
+/// widest one.
 pub(super) fn blame(cell: &Cell, mut well: impl FnMut(&Cell) -> bool) -> usize {
     let is_to_blame = |variable: &usize| {
         let mut thin = cell.clone();

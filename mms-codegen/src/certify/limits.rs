@@ -5,13 +5,13 @@
 //!
 //! | | is analytic | has a value | proved by |
 //! |---|---|---|---|
-//! | 1/x, x^-n | x is not 0 | there | all quantities are finite; where it cancels, the sign of x |
+//! | 1/x, x^-n | x is not 0 | x is not 0 | all quantities are finite; where it cancels, the sign of x |
 //! | sqrt(x), x^(p/q) | x > 0 | x >= 0, for a positive power | x > 0 |
 //! | hypot(x, y) | not both are 0 | everywhere | x^2 + y^2 > 0; on an annulus it is the radius |
-//! | x^y | x > 0 | there | x has the form of a positive expression, or the file is refused when it is read; then x > 0 |
+//! | x^y | x > 0 | x > 0 | x has the form of a positive expression, or the file is refused when it is read; then x > 0 |
 //! | cbrt(x) | x is not 0 | everywhere | the sign of x |
-//! | ln(x), in W ln(J) | x > 0 | there | x > 0; J > 0 is proved already |
-//! | tan(x) | cos(x) is not 0 | there | the sign of cos(x) |
+//! | ln(x), in W ln(J) | x > 0 | x > 0 | x > 0; J > 0 is proved already |
+//! | tan(x) | cos(x) is not 0 | cos(x) is not 0 | the sign of cos(x) |
 //! | asin(x), acos(x) | -1 < x < 1 | -1 <= x <= 1 | 1 + x > 0, 1 - x > 0 |
 //! | atan2(y, x) | y is not 0, or x > 0 | everywhere | the sign of y, or x > 0 |
 //!
@@ -43,7 +43,7 @@ impl Must {
     }
 }
 
-/// The end of an operation: where it stops being analytic, or being defined.
+/// A limit of the domain of an operation: the conditions under which it is analytic, and under which it has a value.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Limit {
     /// The condition for being analytic.
@@ -161,7 +161,7 @@ pub fn limits(graph: &mut Graph, formulas: &[Expr]) -> Vec<Limit> {
 /// Angles, each with its multiple.
 type Turns = SortedMap<Expr, Rational>;
 
-/// The angles of which no formula changes with a whole turn.
+/// The angles whose whole turns change no formula.
 fn single_valued_angles(graph: &Graph, formulas: &[Expr]) -> SortedSet<Expr> {
     let mut turns = SortedMap::<Expr, Turns>::new();
     let (mut angles, mut seen) = (SortedSet::new(), SortedSet::new());

@@ -1,8 +1,8 @@
 //! Checks that a material is an elastic solid in the undeformed body: W is smooth at F = I, and no wave grows there.
 //!
-//! The acoustic tensor Q_ik = A_iJkL n_J n_L must have no negative eigenvalue, and not be 0: along one direction of an
-//! isotropic solid, where all are alike, and along some tens of directions with fibres. Points of the body are sampled, which
-//! is no proof.
+//! The acoustic tensor Q_ik = A_iJkL n_J n_L must have no negative eigenvalue, and must not be 0. One direction n is tested if
+//! the solid is isotropic, since all directions are then equal, and some tens of directions if it has fibres. Points of the body
+//! are sampled, which is no proof.
 
 use mms_math::Scalar as _;
 

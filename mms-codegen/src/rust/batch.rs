@@ -13,7 +13,7 @@ use mms_symbolic::expr::{Function, Symbol};
 use mms_symbolic::sorted::SortedSet;
 
 impl Emitter<'_> {
-    /// The module of batches.
+    /// The path of `mms-math` in generated code: the crate itself, or its re-export `math` in `mms-runtime`.
     pub(super) fn math(&self) -> TokenStream {
         let name = Ident::new(if self.contract { RUNTIME } else { MATH }, Span::call_site());
         if self.contract { quote!(::#name::math) } else { quote!(::#name) }
@@ -40,7 +40,7 @@ impl Emitter<'_> {
         quote!(#stand_ins #points #(#kernels)*)
     }
 
-    /// Conversions of the prepared structs.
+    /// The functions `standing`, which convert the prepared structs to the scalar type of a loop.
     fn stand_ins(&self) -> TokenStream {
         let names = |values: Vec<Value>| -> Vec<_> {
             values.into_iter().map(|value| self.name(value)).collect()
@@ -146,8 +146,8 @@ impl Emitter<'_> {
         }
     }
 
-    /// The kernels of a quantity that needs these `columns` of a point, and the functions that drive them. The kernel stores
-    /// its own part of `all` columns of many points.
+    /// The kernels of a quantity that needs these `columns` of a point, and the functions that call them. The kernel over stored
+    /// points reads the columns of `own` among `all` stored columns, and computes the other ones.
     fn kernels_of(
         &self,
         quantity: Quantity,
@@ -236,8 +236,8 @@ impl Emitter<'_> {
         self.axes().map(|axis| self.input(Symbol::Coordinate(axis))).collect()
     }
 
-    /// The way of running those two loops: together, if the first one has divisions or roots and otherwise only sums and
-    /// products. Functions have coefficients, too many for the registers that the second loop leaves free.
+    /// `Together` or `Apart`: whether the two loops of a split kernel run as one. They do if the first loop has divisions or
+    /// roots, and apart from these only sums and products. Functions have coefficients, too many for the registers that the second loop leaves free.
     pub(super) fn loops_of(&self, quantity: Quantity) -> Ident {
         let roots = self.values(Output::Quantity(quantity));
         let needed = self.program.needed_for(roots.iter().copied());

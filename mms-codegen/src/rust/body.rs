@@ -56,7 +56,8 @@ struct Body<'a> {
 }
 
 impl Body<'_> {
-    /// Constants are written where they are read, and arguments have names already.
+    /// Whether an instruction gets its own `let`. Constants do not, since each reader writes them; neither do arguments, which
+    /// have names, and operations that are fused into another one.
     fn is_written(&self, index: usize) -> bool {
         let has_a_value = match self.emitter.program.instrs[index].op {
             Op::Constant(_) | Op::Pi => false,

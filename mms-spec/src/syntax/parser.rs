@@ -157,7 +157,7 @@ impl Parser<'_> {
         self.push(kind, span, range)
     }
 
-    /// Adds a node; `range` is the text that an operator on it covers.
+    /// Adds a node as an operand. `range` is the text of the operand, parentheses included.
     fn push(&mut self, kind: NodeKind, span: Span, range: Range<usize>) -> ParseResult {
         if self.nodes.len() >= MAX_NODES {
             let message = format!("this expression has more than {MAX_NODES} terms");

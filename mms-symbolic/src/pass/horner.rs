@@ -35,7 +35,8 @@ pub(super) fn flat_view(graph: &mut Graph, expr: Expr) -> Option<Polynomial> {
                 .collect::<Option<Monomial>>()?,
             _ => vec![(term, 1)],
         };
-        // The handles of roots may be in another order than the handles of their bases.
+        // A fractional power becomes a power of a root (`integral_power`), whose handle may sort differently than the handle of
+        // its base.
         let mut monomial = monomial;
         monomial.sort();
         view.add(monomial, coefficient);
