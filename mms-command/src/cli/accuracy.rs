@@ -28,11 +28,11 @@ use super::{CommandOutcome, say, this_command, validate_output};
 /// The table shows, for each quantity, precision and form, the regime with the largest error. Errors are in eps of the
 /// precision (2^-23, 2^-52, 2^-104): the median of |error|/|value|, the bound for 99 of 100 components, and the largest; then
 /// the largest |error| over the largest |value| of the quantity. Components that are not finite are counted separately. A
-/// field takes about a minute of processor time, at most a few, most of it for the functions of the reference; --quantity,
-/// --regime, --precision and --points shorten it.
+/// field takes about one minute of processor time, at most a few minutes, mostly for elementary functions in arbitrary
+/// precision; --quantity, --regime, --precision and --points shorten it.
 ///
 /// The exit code is 1 if the stable form exceeds 64 eps of the largest value at the declared parameters, or at displacements
-/// down to 1e-12 of the size; and if this cannot be measured. Numbers that were not measured are null in --json.
+/// down to 1e-12 of the size of the body; and if this cannot be measured. Numbers that were not measured are null in --json.
 #[derive(Args)]
 #[command(after_help = listed())]
 pub struct Accuracy {

@@ -34,8 +34,9 @@ use crate::session::progress::Progress;
 /// The limits are tiny and nearly inverted motions, nearly incompressible material, stiff and soft units, one cell and
 /// millions, one particle per cell and a thousand, Courant numbers from 0.01 to above the stable one, a million steps, a body
 /// far from the origin, and single precision. Bounds are relative to the error of the declared field with the method's
-/// options. If a field cannot be put at a limit, the row says why. A row is `unresolved` if the grid in space is too coarse
-/// for a nearly inverted material: a cell may then contain a thousand times the material, and no bound exists for its error.
+/// options. If a field cannot be put at a limit, the row says why. A row is `unresolved` if the grid is too coarse for a
+/// nearly inverted material: a cell may then contain a thousand times as much material as at the start, and no bound exists for
+/// its error.
 ///
 /// Then the command computes the largest stable Courant number of each shape function, formulation, transfer and integrator
 /// by bisection, and prints it beside the value from von Neumann's analysis of the interior.
@@ -63,7 +64,7 @@ pub struct Extremes {
     printing: Printing,
 }
 
-/// The name of what is measured behind the rows.
+/// The name by which `--row` selects the measurement of stable Courant numbers, which follows the rows.
 const STABILITY: &str = "stability";
 
 impl Extremes {
@@ -77,7 +78,7 @@ impl Extremes {
             Err(reason) => bail!("{reason}"),
         };
         let dimension = declared.input.compiled.field.dimension;
-        // Values that are set became defaults already.
+        // `&[]`: the values of `--set` are already the defaults of the compiled field.
         let (mut method, note) = self.method.method_for(&declared.input, &[])?;
         note.iter().for_each(say);
         // A run that is too large for the solver is too large on any machine.
@@ -133,7 +134,7 @@ impl Extremes {
         Ok(if expected { CommandOutcome::AsExpected } else { CommandOutcome::Refuted })
     }
 
-    /// How the field is taken.
+    /// The options with which the field is compiled: its variant, and the parameters that are set.
     fn options(&self) -> anyhow::Result<Options> {
         let selection = Selection { set: settings(&self.set)?, ..Selection::default() };
         Ok(self.method.variant(&self.motion).options(selection))

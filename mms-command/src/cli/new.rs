@@ -115,7 +115,7 @@ impl New {
     }
 }
 
-/// The text of the field in space of which a named one is the section.
+/// The text of the field of three dimensions that a named axisymmetric field generates by revolution.
 fn in_space(field: &str) -> anyhow::Result<String> {
     let input = Input::new(open(field)?, &Options::default())?;
     section::in_space(&input.compiled.field).map_err(|why| {

@@ -26,7 +26,8 @@ const KILLED: i32 = 130;
 pub struct Interrupted(Arc<AtomicBool>);
 
 impl Interrupted {
-    /// Waits for Ctrl-C, Ctrl-\, or another request to terminate; a second one ends the process at once.
+    /// Installs handlers: the first Ctrl-C, Ctrl-\ or other request to terminate sets the flag, and a second one ends the process
+    /// at once.
     ///
     /// # Errors
     /// Handlers of signals cannot be installed.

@@ -142,7 +142,7 @@ impl Run {
         })
     }
 
-    /// Refuses files about the way of a run that has none.
+    /// Refuses `--history`, `--checkpoint` and `--resume` for a relaxation, whose steps have no physical meaning.
     fn validate_way(&self) -> anyhow::Result<()> {
         let given = [
             ("--history", &self.history),
@@ -157,7 +157,7 @@ impl Run {
         }
     }
 
-    /// Refuses files to write that are read, or are one.
+    /// Refuses to write the history or a checkpoint to a file that the run reads, or both to the same file.
     fn validate_files(&self, input: &Input) -> anyhow::Result<()> {
         let inputs = input.files();
         for (option, path) in [("--history", &self.history), ("--checkpoint", &self.checkpoint)] {

@@ -40,7 +40,7 @@ pub fn expand(arguments: impl Iterator<Item = OsString>) -> anyhow::Result<Vec<O
     Ok(arguments[..2].iter().cloned().chain(saved).chain(own.iter().cloned()).collect())
 }
 
-/// The options of the command line, and what they leave of a file.
+/// The options and parameters that the command line sets; they replace the same ones of a study file.
 struct Given {
     command: Command,
     /// The names of options.
@@ -84,7 +84,7 @@ impl Given {
         })
     }
 
-    /// The arguments of one key; otherwise what the command says of them.
+    /// Checks the arguments of one key: returns them, or the message with which the command refuses them.
     fn check(&self, name: &str, arguments: Vec<OsString>) -> Result<Vec<OsString>, String> {
         let command: &[&str] = if name == "field" { &["study"] } else { &["study", "field"] };
         let all = command.iter().map(OsString::from).chain(arguments.iter().cloned());
@@ -148,7 +148,7 @@ fn options(path: &str, text: &str, given: &Given) -> anyhow::Result<Vec<OsString
     Ok(arguments)
 }
 
-/// One key as arguments, without the parameters that are set already; otherwise what it takes.
+/// Converts one key to arguments, without the parameters that the command line sets; the error names the expected value.
 fn words(
     name: &str,
     value: &Spanned<DeValue<'_>>,

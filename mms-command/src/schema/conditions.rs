@@ -118,7 +118,7 @@ fn axisymmetric() -> [Value; 3] {
     [axisymmetric, if_then(plain, of(false)), twisted]
 }
 
-/// A swirl and an axis are of axisymmetric fields alone.
+/// Only axisymmetric fields may have a swirl or an axis.
 fn without_swirl() -> Value {
     let inner = format::claims(Face::Outer);
     let asked =

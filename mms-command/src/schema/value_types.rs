@@ -98,7 +98,8 @@ fn value(value_type: &ValueType) -> Value {
     }
 }
 
-/// A quantity that may have a closed form: one of every field, or any name that no quantity of every field has.
+/// A quantity that may have a closed form: one that every field has, or a name that the file defines. The names of other built-in
+/// quantities are refused.
 fn quantity() -> Value {
     let known = quantities();
     let is_other = |quantity: &Quantity| !known.contains(&quantity.name());

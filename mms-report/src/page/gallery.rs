@@ -9,7 +9,7 @@ use super::mark::{table, words};
 use super::{Page, Verdicts, field, frame};
 use crate::{Shown as _, Study};
 
-/// Runs the study of a command line, as any machine makes it; `None` if no level could be started.
+/// Runs the study of a command line, and leaves the machine out of the report; `None` if no level could be started.
 pub type RunStudy<'a> = &'a dyn Fn(&[String]) -> anyhow::Result<Option<Study>>;
 
 /// The page of a field.

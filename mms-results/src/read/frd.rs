@@ -381,7 +381,7 @@ impl<'a> File<'a> {
                     self.mistake(format!("expected a record -5 with a component of `{name}`"))
                 );
             }
-            // The length of a vector is left to viewers.
+            // The file declares this component, the length of a vector, without storing it: viewers compute it.
             if field(line, 33, 5) == "1" {
                 continue;
             }

@@ -1,5 +1,6 @@
-//! The node order of Gmsh for elements of order 3 and more ("Gmsh Reference Manual", section "Node ordering"): corners, then
-//! nodes of edges, of faces, and inner nodes, where faces and the inner nodes have the order of such elements again.
+//! The node order of Gmsh for elements of order 3 and more ("Gmsh Reference Manual", section "Node ordering"): first the
+//! corners, then the nodes of the edges, of the faces, and the inner nodes. The nodes inside a face, and the inner nodes, are
+//! numbered like the nodes of a smaller element.
 
 use crate::cell::CellShape;
 
@@ -57,8 +58,8 @@ pub fn order(of_vtk: u8, nodes: usize) -> Vec<usize> {
     shape.nodes.iter().map(place).collect()
 }
 
-/// All nodes of an element. The inner nodes form an element of an order lower by `inner`; `None` if its only face contains
-/// them.
+/// All nodes of an element. The inner nodes form an element whose order is lower by `inner`. `inner` is `None` for an element in
+/// the plane: its inner nodes are the nodes of its face.
 fn volume(form: Form, inner: Option<i32>, order: i32) -> Vec<Steps> {
     let corners: Vec<Steps> = form.0.iter().map(|it| it.map(|it| order * it)).collect();
     let mut all = frame(&corners, form, order);

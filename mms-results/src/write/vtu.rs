@@ -109,7 +109,8 @@ fn numbers(
     array(kind, name, components, &bytes, out)
 }
 
-/// Tensors of `rows` rows with `dimension` components each, padded with 0 to `size` components in three dimensions.
+/// Vectors (one row) or tensors with `dimension` components per row, padded with 0 to the `size` components (3 or 9) that VTK
+/// expects.
 fn padded(values: &[f64], dimension: usize, [rows, size]: [usize; 2]) -> Vec<f64> {
     let mut all = Vec::with_capacity(values.len() / (dimension * rows) * size);
     for tensor in values.chunks(dimension * rows) {
