@@ -1,7 +1,8 @@
 //! Hypotheses: mistakes that people make, each as a change of the input of a solver or of what it computes.
 //!
-//! Each family is a file; its list is `all`. A [`Hypothesis`] has a size, for most a single number: a factor, a time, a
-//! component of a vector ([`Size`]). One size is the size of a right solver. Sizes with names of their own are [`Known`].
+//! Each family of hypotheses is a file, whose function `all` lists them. A [`Hypothesis`] has a size, for most a single number:
+//! a factor, a time, a component of a vector ([`Size`]). One of the sizes is the size of a right solver. Sizes with names of
+//! their own are [`Known`].
 
 mod density;
 mod face;
@@ -27,7 +28,7 @@ pub use ring::Ring;
 pub use stress::over_jacobian;
 pub use tangent::{of_tangent, voigt_orders};
 
-/// The place where a hypothesis is evaluated: X, and H if it is known.
+/// The arguments of a change: the exact solution, the size of the mistake, the time, X, and H if the change needs it.
 pub struct Given<'a, const D: usize> {
     /// The exact solution.
     pub exact: &'a Exact<'a, D>,
@@ -105,7 +106,8 @@ pub enum Change<const D: usize> {
     Condition(Condition),
     /// The values that are written of a quantity. Nothing that is computed changes.
     Output(fn(&Given<'_, D>, Quantity) -> Vec<f64>),
-    /// b, stresses or tractions of an axisymmetric field, in space: the mistake has the components R, Z and theta.
+    /// A change of b, stresses or tractions of an axisymmetric field, made on the field of three dimensions with the components
+    /// R, Z and theta.
     InSpace(Box<Hypothesis<3>>),
     /// The body that a solver uses in place of a ring.
     Ring(Ring),
@@ -172,7 +174,7 @@ impl HypothesisKind {
     }
 }
 
-/// The most time steps by which something may belong to another time.
+/// The largest number of time steps by which a hypothesis may shift the time of a value.
 const STEPS: f64 = 8.0;
 
 /// Factors that people often forget or add.
@@ -218,7 +220,7 @@ pub struct Hypothesis<const D: usize> {
     pub which: Option<Cow<'static, str>>,
     /// The one quantity whose output it changes.
     pub only: Option<Quantity>,
-    /// Whether it is a mistake of its own only if other quantities of the results are right.
+    /// Whether results show the mistake as one of its own only if they also contain other quantities, which are right.
     pub needs_other_quantities_right: bool,
     /// Whether its size is proportional to a time step or a cell, and so is smaller on a finer mesh.
     pub is_of_mesh: bool,

@@ -6,8 +6,8 @@ use crate::real::Real;
 /// Pairs of a node outside and one inside, in layers from the face outward.
 ///
 /// A grid extends for as many layers as any particle might need; mass is seldom in more than the first. The images skip layers
-/// beyond the last one with mass: no particle reads them. They use whole layers, so that at edges, where the image of a node is
-/// beyond another face, that node is included too.
+/// beyond the last one with mass: no particle reads them. They use whole layers, because a node beyond two faces is folded to a
+/// node that is still beyond the second face, and that node may have had no mass before.
 pub struct Images {
     pairs: Vec<(usize, usize)>,
     /// The number of pairs up to each layer.

@@ -26,8 +26,8 @@ use crate::tensor::matrix_is_finite;
 /// The number of particles whose stresses are computed together: few enough for the stresses to stay in the cache.
 const PART: usize = 256;
 
-/// The number of particles whose body forces are computed together: enough to make the terms of time alone cheap, which are
-/// computed once per batch.
+/// The number of particles whose body forces are computed together, as a batch. Each batch computes the terms that depend on time
+/// alone once; with so many particles they cost little.
 const FORCED: usize = 2048;
 
 /// One of this many batches is timed: reading the clock stalls the processor.
@@ -46,7 +46,7 @@ pub(super) enum Addend<T> {
     Stress,
     /// Momentum without a linear velocity, and force, as two separate sums.
     Both,
-    /// Momentum plus force times this time, as one sum.
+    /// Momentum plus force times this time step, as one sum.
     Kicked(T),
 }
 
@@ -87,8 +87,8 @@ impl<T: Real, const D: usize, F> SlabSums<'_, T, D, F>
 where
     F: ManufacturedField<T, D> + ?Sized,
 {
-    /// Adds to momentum and force of the nodes in the slab's window. Returns the seconds that each part of the timed
-    /// batches took.
+    /// Adds to momentum and force of the nodes in the slab's window. Returns the seconds that body forces, stresses and the
+    /// transfer took in the batches that are timed.
     pub fn slab(&self, slab: &Slab, nodes: [Window<'_, T>; 2]) -> Result<Seconds, SlabError> {
         let [mut momentum, mut force] = nodes;
         let mut seconds = Seconds::default();
@@ -336,7 +336,7 @@ impl<T: Real, const D: usize, St: Stencil<T, D>> Carrier<'_, T, D, St> {
     ) {
         let Self { packs, k, members, stencil } = self;
         let Arrays { velocity, affine, residual, .. } = packs;
-        // One call adds values alone, another one everything else: each is compiled once.
+        // One call adds payloads without gradient weights, another one payloads with them, so that each kind is compiled once.
         let alone = match (added, residual, affine) {
             (Addend::Residual, Some(residual), _) => Some(&residual[k]),
             (Addend::Momentum | Addend::Both, _, None) => Some(&velocity[k]),
