@@ -1,4 +1,4 @@
-//! Campaigns: somebody else's solver on the meshes of several studies, each judged as `mms judge` does it.
+//! Campaigns: an external solver on the meshes of several studies, each judged as `mms judge` does it.
 //!
 //! [`plan`] makes the runs of a file, each with the data that its result depends on: the words of its command, the contents of
 //! the files that these start or name (`dependencies`, by their `digests`) and of files that the file lists (`sources`), the

@@ -1,4 +1,4 @@
-//! The fields of the gallery that test the most of somebody else's solver: a verification matrix for it.
+//! The fields of the gallery that test the most of an external solver: a verification matrix for it.
 //!
 //! A field shows the terms of the equations that do not vanish in it, its dimension, its material and the kinds of its faces.
 //! From the fields that a solver can run, this module chooses the smallest set that shows every term that one of them shows.

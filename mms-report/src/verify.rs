@@ -236,14 +236,14 @@ impl Shown for List<'_> {
 const INTRODUCTION: &str = "\
 # Verification matrix
 
-Each row tests one mode of the built-in solver, with the field that isolates it. The rows are data in
-`mms-verify/src/matrix.toml`, with the order that theory expects; this page adds the observed orders. The command is
-`cargo run --release -- verify --page > docs/verification.md`.
+Each row tests one mode of the built-in solver, that is one of its features, with a field that isolates it. The rows are data in
+`mms-verify/src/matrix.toml`, with the order that theory expects; this page adds the observed orders. The command
+`cargo run --release -- verify --page > docs/verification.md` writes this page.
 
 If only the time step is refined, the order is the order in time. Observed orders compare l2 of neighbouring
 levels, from coarse to fine. The constant is l2 over h^order or dt^order at the finest level of `mms verify --quick`, in the
-units of the field. It may differ by 1 % from the constant in `matrix.toml`. The formal order `none` means that the error must
-not shrink, or that the run stops; `exact` means that rounding is the only error. The slides in
+units of the field. It may differ by 1 % from the constant in `matrix.toml`. The formal order `none` means that theory expects an
+error that does not shrink, or a run that stops; `exact` means that rounding is the only error. The slides in
 the last column are from the [source of the bar](verified.md#a-wrong-sign-in-a-published-formula).
 ";
 

@@ -1,4 +1,4 @@
-//! `mms campaign`: somebody else's solver on the meshes of several studies.
+//! `mms campaign`: an external solver on the meshes of several studies.
 
 mod suggest;
 
