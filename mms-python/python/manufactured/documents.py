@@ -98,6 +98,9 @@ class Diagnose(Document):
     """The units of h, dt and the quantity of `fields`, if the field states units."""
     fields: ErrorFields | None
     """The errors of results at points."""
+    question: str | None = None
+    """A question about a parameter of the field; missing if no other value of one fits the results much
+    better."""
     next: str
     """The next step to take."""
     next_command: list[str] | None = None
