@@ -28,7 +28,7 @@ const LAST_BITS: u32 = 0b11_1111;
 const SHORT: u32 = 9;
 /// The least spacing of a grid whose points may be missing, in units of the last digit.
 const SPARSE: f64 = 20.0;
-/// The largest distance of a coordinate from a grid, over half its spacing.
+/// The largest distance of a coordinate from a grid, divided by half its spacing.
 const GRID: f64 = 1e-6;
 
 impl Stored {
@@ -75,7 +75,9 @@ impl Stored {
             let least = gaps().fold(f64::INFINITY, f64::min);
             let near = |number: f64| (number - number.round()).abs() < GRID;
             let is_even = || gaps().all(|gap| near(gap / least) && gap < 1.5 * least);
-            all.iter().all(|it| near(2.0 * it / least)) && (least >= SPARSE * unit || is_even())
+            let is_multiple = || all.iter().all(|it| near(2.0 * it / least));
+            // A single coordinate has no spacing.
+            least.is_finite() && is_multiple() && (least >= SPARSE * unit || is_even())
         };
         digits <= SHORT && (0..dimension).all(is_axis_of_grid)
     }
@@ -505,6 +507,8 @@ mod tests {
         assert!(!is_grid(2, &[0.17, 0.5, 0.83]));
         assert!(!is_grid(2, &[0.0, 0.33, 0.67, 1.0]));
         assert!(!is_grid(2, &[0.13, 0.58, 0.71, 0.99]));
+        // A line at a third.
+        assert!(!is_grid(2, &[0.33, 0.33]));
         // With full precision nothing has to be guessed.
         assert!(!is_grid(17, &[0.0, 0.5, 1.0]));
     }

@@ -4,13 +4,14 @@ mod evidence;
 mod field;
 mod given;
 mod nodal;
+mod order;
 #[path = "../../../tests/support/sampled.rs"]
 mod sampled;
 mod statics;
 mod tangent;
 
 use field::{DENSITY, FREQUENCY, LAMBDA, MU, Square};
-use mms_diagnosis::answer::{Diagnosis, DiagnosisFinding, ErrorPlace, Limits, Ranked, Rung};
+use mms_diagnosis::answer::{Diagnosis, DiagnosisFinding, Limits, Ranked, Rung};
 use mms_diagnosis::changed::Without;
 use mms_diagnosis::closed_form::{self, ClosedForm};
 use mms_diagnosis::evidence::{ComparisonFrame, DEGREE, Mesh, Snapshot};
@@ -575,68 +576,6 @@ fn what_is_written_wrongly_is_named() {
     let across = of_results(|t, x| u(t, x) + bump(0.4)(x)).place.unwrap();
     let (axis, at) = across.plane.unwrap();
     assert!(across.face.is_none() && axis == 0 && (at - 0.4).abs() < 0.01, "{across:?}");
-}
-
-/// The exact displacements of a grid, written in another order than the positions, with an error of some percent.
-#[test]
-fn values_in_another_order_are_named() {
-    let grid = |[a, b]: [usize; 2]| -> Vec<Point> {
-        let middle = |k: usize, count: usize| (k as f64 + 0.5) / count as f64;
-        (0..a * b).map(|k| Point::new(middle(k % a, a), middle(k / a, b))).collect()
-    };
-    let exact = exact(&LOADED, 12.0);
-    let of = |edges: [usize; 2], before: &Diagnosis, order: &dyn Fn(usize) -> usize| {
-        let points = grid(edges);
-        let time = 0.03;
-        let right: Vec<Point> = points.iter().map(|x| field::displacement(time, x)).collect();
-        let error = |x: &Point| 1e-4 * (7.0 * x[0] + 3.0 * x[1]).sin();
-        let u = (0..points.len()).flat_map(|k| {
-            let (u, error) = (right[order(k)], error(&points[k]));
-            [u[0] + error, u[1] - error]
-        });
-        let snapshot = Snapshot {
-            time,
-            reference: points.iter().flat_map(|x| x.as_slice().to_vec()).collect(),
-            values: vec![(Quantity::Displacement, u.collect())],
-            ..Snapshot::default()
-        };
-        let found = patterns::or_permutation(&exact, &[&snapshot], before.clone());
-        let which = found.ranked[0].which.clone().unwrap_or_default();
-        (name(&found), which.into_owned())
-    };
-    let zero = Snapshot {
-        time: 0.03,
-        reference: grid([6, 6]).iter().flat_map(|x| x.as_slice().to_vec()).collect(),
-        values: vec![(Quantity::Displacement, vec![0.0; 72])],
-        ..Snapshot::default()
-    };
-    let other = patterns::zero(&exact, &[&zero]).expect("zeros");
-    let unexplained = Diagnosis { finding: DiagnosisFinding::Unexplained, ..other.clone() };
-    let named = |which: &str| ("points_permuted", which.to_owned());
-    let (wide, count) = ([32, 18], 32 * 18);
-    let order = |order: &dyn Fn(usize) -> usize| of(wide, &unexplained, order);
-    assert_eq!(order(&|k| k).0, "unexplained");
-    assert_eq!(order(&|k| count - 1 - k), named("reversed"));
-    assert_eq!(order(&|k| (k + 1) % count), named("shifted by 1 point back"));
-    assert_eq!(order(&|k| k % 18 * 32 + k / 18), named("axes of a grid of 32 x 18 points swapped"));
-    // No rule: the order of scrambled numbers.
-    let mut shuffled: Vec<usize> = (0..count).collect();
-    shuffled.sort_by_key(|k| (*k as u32).wrapping_mul(2_654_435_769));
-    assert_eq!(order(&|k| shuffled[k]), named(""));
-    // Another name stays, unless most of the error is noise.
-    assert_eq!(of(wide, &other, &|k| shuffled[k]).0, "output_zero");
-    let place = |smooth| ErrorPlace {
-        at: Vec::new(),
-        time: 0.03,
-        face: None,
-        plane: None,
-        order: None,
-        smooth,
-    };
-    for (smooth, name) in [(0.9, "output_zero"), (0.1, "points_permuted")] {
-        let other = Diagnosis { place: Some(place(smooth)), ..other.clone() };
-        assert_eq!(of(wide, &other, &|k| shuffled[k]).0, name);
-    }
 }
 
 #[test]

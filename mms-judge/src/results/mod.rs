@@ -2,8 +2,8 @@
 //!
 //! `files` reads them, with `mms-results`; `times` finds the times at which meshes can be compared; `level` measures a snapshot
 //! against the field's program ([`Exact`]), and finds the error floor from the rounding of the file; `snapshot_errors` computes
-//! the errors. `baseline` and `repeated` compare results with results; `excluded` finds the mistakes that a small error
-//! excludes.
+//! the errors. `baseline` and `repeated` compare results with results; `refit` finds a time or a parameter that fits better;
+//! `excluded` finds the mistakes that a small error excludes.
 
 mod baseline;
 mod degree;
