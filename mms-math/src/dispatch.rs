@@ -21,6 +21,9 @@ pub trait Work<T> {
     /// used.
     const GAINS_BY_AVX512: bool = true;
 
+    /// Whether there is a version for AVX2 in builds with debug assertions, for tests that ask for these instructions.
+    const HAS_AVX2_IN_DEBUG: bool = cfg!(test);
+
     /// Does the work, with loops over `M::Lane` and eight numbers at a time. All called functions have to be inlined, or they
     /// are not compiled for the instruction set.
     fn on<M: Simd<T>>(self, simd: M) -> Self::Output;
@@ -51,6 +54,11 @@ enum IsaLevel {
 
 const LEVELS: [IsaLevel; 3] = [IsaLevel::Baseline, IsaLevel::Avx2, IsaLevel::Avx512];
 
+/// The instructions that work may use without being asked to. Programs with debug assertions need not be fast, and a second
+/// version of every batch and of every step of a solver would double the time to compile them.
+const USUAL: &[IsaLevel] =
+    if cfg!(all(debug_assertions, not(test))) { &[IsaLevel::Baseline] } else { &LEVELS };
+
 impl IsaLevel {
     const fn name(self) -> &'static str {
         match self {
@@ -61,8 +69,7 @@ impl IsaLevel {
     }
 
     /// Whether the processor has the instructions, and this crate was compiled for them. With debug assertions there is no
-    /// version for AVX-512: every batch and every step of a solver would be compiled once more, for programs that need not be
-    /// fast.
+    /// version for AVX-512.
     fn is_here(self) -> bool {
         match self {
             IsaLevel::Baseline => true,
@@ -109,7 +116,8 @@ impl Instructions {
         (!Instructions::names().any(|name| name == limit)).then_some(limit)
     }
 
-    /// The best instructions that the processor has and the environment variable [`LIMIT`] allows. The variable is read once.
+    /// The best instructions that the processor has and the environment variable [`LIMIT`] allows; with debug assertions the
+    /// baseline. The variable is read once.
     #[inline]
     pub fn best() -> Instructions {
         // An index into `LEVELS`; initially invalid.
@@ -136,7 +144,9 @@ impl Instructions {
             // Safety: likewise; a processor with AVX-512 has AVX2.
             #[cfg(target_arch = "x86_64")]
             #[allow(unsafe_code)]
-            IsaLevel::Avx2 | IsaLevel::Avx512 => unsafe { avx2(work) },
+            IsaLevel::Avx2 | IsaLevel::Avx512
+                if !cfg!(debug_assertions) || W::HAS_AVX2_IN_DEBUG =>
+            unsafe { avx2(work) },
             _ => baseline(work),
         }
     }
@@ -158,7 +168,7 @@ impl Instructions {
 #[cold]
 fn found_with(limit: Option<std::string::String>) -> IsaLevel {
     let limit = LEVELS.into_iter().find(|level| Some(level.name()) == limit.as_deref());
-    let mut levels = LEVELS.into_iter().rev().filter(|level| level.is_here());
+    let mut levels = USUAL.iter().copied().rev().filter(|level| level.is_here());
     levels.find(|level| limit.is_none_or(|limit| *level <= limit)).unwrap_or(IsaLevel::Baseline)
 }
 

@@ -363,6 +363,7 @@ fn what_a_static_campaign_has_not_is_refused_at_its_place() {
 fn a_particle_that_is_lost_in_relaxation_says_what_to_do() {
     let folder = Folder::new();
     let text = STATIC
+        .replace("value = 0.02", "value = 0.3")
         .replace(
             "a*sin(pi*X/length)*sin(pi*Y/length)\", \"a*sin(pi*X/length)*sin(pi*Y/length)",
             "a*X/length*(1 + (X^2 + Y^2)/length^2)\", \"a*Y/length*(1 + (X^2 + Y^2)/length^2)",

@@ -190,6 +190,8 @@ struct Arithmetic<'a, 'b, T, const C: usize, const K: usize> {
 impl<T: Float, const C: usize, const K: usize> Work<T> for Arithmetic<'_, '_, T, C, K> {
     type Output = ();
 
+    const HAS_AVX2_IN_DEBUG: bool = true;
+
     #[inline(always)]
     fn on<M: Simd<T>>(self, _: M) {
         for step in self.steps {
@@ -208,6 +210,8 @@ struct Unary<'a, T, F, const C: usize> {
 impl<T: Float, F: OfOne, const C: usize> Work<T> for Unary<'_, T, F, C> {
     type Output = ();
 
+    const HAS_AVX2_IN_DEBUG: bool = true;
+
     #[inline(always)]
     fn on<M: Simd<T>>(self, _: M) {
         one::<T, M::Lane, C>(self.result, self.argument, |x| self.function.at(x));
@@ -223,6 +227,8 @@ struct Binary<'a, T, F, const C: usize> {
 
 impl<T: Float, F: OfTwo, const C: usize> Work<T> for Binary<'_, T, F, C> {
     type Output = ();
+
+    const HAS_AVX2_IN_DEBUG: bool = true;
 
     #[inline(always)]
     fn on<M: Simd<T>>(self, _: M) {
