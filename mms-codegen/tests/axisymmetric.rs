@@ -142,7 +142,7 @@ fn close(name: &str, found: &[Precise], expected: &[Precise]) {
 
 #[test]
 fn a_section_has_the_quantities_of_the_field_in_space() {
-    for section in &SECTIONS {
+    for section in sampled(&SECTIONS, 2) {
         let flat = compiled(&section.text("0.25"));
         let space = compiled(&in_space(&flat));
         let evaluated = Quantity::evaluated();
@@ -194,14 +194,14 @@ fn numbers(compiled: &Compiled, quantity: Quantity, time: f64, at: &[f64]) -> Ve
 }
 
 /// Sections whose formulas have no pole at R = 0: all except those with fibres that lean outwards.
-fn reaching_the_axis() -> impl Iterator<Item = Compiled> {
-    let sections = SECTIONS.iter().filter(|section| section.fibre.is_none());
-    sections.map(|section| compiled(&section.text("0")))
+fn reaching_the_axis() -> impl Iterator<Item = &'static Section> {
+    SECTIONS.iter().filter(|section| section.fibre.is_none())
 }
 
 #[test]
 fn on_the_axis_values_are_limits_and_exact() {
-    for field in reaching_the_axis() {
+    for section in sampled(reaching_the_axis(), 2) {
+        let field = compiled(&section.text("0"));
         for quantity in Quantity::evaluated() {
             let [near, at] = [1e-45, 0.0].map(|r| value(&field, quantity, 0.375, &[r, 0.25]));
             let scale = at.iter().map(|it| it.to_f64().abs()).fold(1e-3, f64::max);

@@ -97,11 +97,11 @@ for path in sys.argv[1:]:
         nodes.extend(node.children if node.has_error else [])
 "#;
 
-/// The targets in which a test tries case `case` of `cases`: half of the targets, with one case each. All targets have all cases
+/// The targets in which a test tries case `case` of `cases`: a quarter of the targets, with one case each. All targets have all cases
 /// if everything is tried.
 pub fn in_turn(test: &str, case: usize, cases: usize) -> impl Iterator<Item = &'static Target> {
     let is_chosen = move |(place, target): &(usize, &Target)| {
-        all_is_tried() || place % cases == case && is_tried(&format!("{test} {}", target.name), 2)
+        all_is_tried() || place % cases == case && is_tried(&format!("{test} {}", target.name), 4)
     };
     let targets = ports().enumerate().filter(is_chosen);
     targets.map(|(_, target)| target).filter(|target| can_prove(target))

@@ -74,7 +74,7 @@ fn every_field_proves_itself_in_every_language() {
     let targets: Vec<_> = ports().filter(|target| can_prove(target)).collect();
     let pairs =
         (0..targets.len()).flat_map(|target| (0..fields.len()).map(move |field| (field, target)));
-    let pairs = sampled(pairs, 60);
+    let pairs = sampled(pairs, 120);
     let worst = Mutex::new(BTreeMap::new());
     in_pairs(&pairs, |(field, target)| {
         let (name, target) = (fields[*field].field.name.raw(), targets[*target]);
