@@ -4,9 +4,11 @@ use std::path::{Path, PathBuf};
 
 use mms_results::cell::CellShape;
 use mms_results::motion::{Motion, resolve, validate_distinct};
-use mms_results::names::{KNOWN, Mapping, Names, Role, everything, recognise, wanted};
+use mms_results::names::{KNOWN, Mapping, Names, Role, everything, recognise};
 use mms_results::{Contents, Mistake, Snapshot, Stored, parse, read};
 use proptest::prelude::*;
+
+use crate::survive::{outside, survive};
 
 fn data(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data").join(name)
@@ -31,11 +33,6 @@ fn files(ends: &[&str]) -> Vec<String> {
         names.filter(|name| ends.iter().any(|end| name.ends_with(end))).collect();
     names.sort();
     names
-}
-
-/// The distance of a point from the unit square.
-fn outside(point: &[f64]) -> f64 {
-    point.iter().map(|x| f64::max(-x, x - 1.0).max(0.0)).fold(0.0, f64::max)
 }
 
 fn motion<'a>(snapshot: &'a Snapshot, map: &[&str]) -> Result<Motion<'a>, Mistake> {
@@ -381,26 +378,6 @@ fn deep_and_wide_xml_ends_soon() {
     let attributes: String = (0..200_000).map(|at| format!(" a{at}=\"\"")).collect();
     assert!(refused(&format!("<a{attributes}/>")).contains("a tag of more than"));
     assert!(refused("<!DOCTYPE a [<!ENTITY b \"c\">]><a>&b;</a>").contains("not XML"));
-}
-
-/// Checks that reading any bytes ends, with results or with a mistake, and so does using the results.
-pub fn survive(bytes: &[u8]) {
-    let u = |role: Role| role == Role::Displacement;
-    let ways = [everything(&KNOWN), wanted(&KNOWN, &u), everything(&KNOWN).within(1 << 12, "")];
-    let mut all = ways.iter().filter_map(|wanted| parse(bytes, wanted).ok());
-    while let Some(Contents::Snapshots(found)) = all.next() {
-        for snapshot in found {
-            let Ok(meanings) = recognise(&snapshot, &KNOWN, &|_| true) else { continue };
-            for dimension in 1..=3 {
-                let mut half = |x: &[f64], _: f64| Ok(Some(x.iter().map(|x| x / 2.0).collect()));
-                let _ = resolve(&snapshot, &meanings, dimension, &outside, None);
-                let _ = resolve(&snapshot, &meanings, dimension, &outside, Some(&mut half));
-                for meaning in &meanings {
-                    let _ = meaning.values(&snapshot, dimension);
-                }
-            }
-        }
-    }
 }
 
 proptest! {

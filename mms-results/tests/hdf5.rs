@@ -9,7 +9,9 @@ use mms_results::wanted::{Need, Wanted};
 use mms_results::{Array, Contents, Snapshot, Stored, parse, read};
 use proptest::prelude::*;
 
-use crate::files::survive;
+use crate::survive::{outside, survive};
+
+mod survive;
 
 const TIMES: [f64; 3] = [0.0, 0.5, 2.0];
 
@@ -47,7 +49,6 @@ fn holds_the_motion(name: &str, snapshot: &Snapshot, map: &[&str], tolerance: f6
     let found =
         recognise(snapshot, &mapped(map), &|role| is_wanted(role) || role.symbol() == "points");
     let found = found.unwrap_or_else(|it| panic!("{name}: {it}"));
-    let outside = |x: &[f64]| x.iter().map(|x| f64::max(-x, x - 1.0).max(0.0)).fold(0.0, f64::max);
     let motion = resolve(snapshot, &found, 2, &outside, None);
     let motion = motion.unwrap_or_else(|it| panic!("{name}: {it}"));
     let time = snapshot.time.map_or(0.0, |it| it.value);

@@ -1,12 +1,11 @@
-//! The tests of this crate, as one program, so that shared code is compiled and linked once.
+//! The tests of this crate, as one program, so that shared code is compiled and linked once. The tests of HDF5 are another,
+//! since they need its feature.
 
 mod archives;
 mod dumps;
 mod files;
 mod frd;
 mod gmsh;
-#[cfg(feature = "hdf5")]
-mod hdf5;
 mod mat;
 mod memory;
 mod norms;
@@ -16,6 +15,7 @@ mod pairing;
 mod sampled;
 mod series;
 mod shared;
+mod survive;
 mod tables;
 mod tecplot;
 mod vtk_more;
