@@ -54,8 +54,8 @@ enum IsaLevel {
 
 const LEVELS: [IsaLevel; 3] = [IsaLevel::Baseline, IsaLevel::Avx2, IsaLevel::Avx512];
 
-/// The instructions that work may use without being asked to. Programs with debug assertions need not be fast, and a second
-/// version of every batch and of every step of a solver would double the time to compile them.
+/// The instructions of work that asks for none. With debug assertions these are the baseline: such programs may be slow, and a
+/// second version of every batch and of every step of a solver would double the time to compile them.
 const USUAL: &[IsaLevel] =
     if cfg!(all(debug_assertions, not(test))) { &[IsaLevel::Baseline] } else { &LEVELS };
 
