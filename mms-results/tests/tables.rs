@@ -123,7 +123,10 @@ fn columns_may_be_named_beside_the_file() {
         assert_eq!(found.of_points[0].values, [0.5, 0.75], "{text}");
     }
     let more = read("0.5 1 2\n", &wanted()).unwrap_err();
-    assert!(more.contains("3 columns, and 2 names"), "{more}");
+    assert!(more.contains("3 columns, and 2 names in `--columns`"), "{more}");
+    let twice = Names { columns: vec!["X".into(), "X".into()], ..Names::default() };
+    let twice = read("0.5 1\n", &everything(&twice)).unwrap_err();
+    assert_eq!(twice, "file: `--columns`: two columns are called `X`");
     let none = read("0.5 1\n", &everything(&KNOWN)).unwrap_err();
     assert!(none.contains("`--columns X,u,..`"), "{none}");
 }
@@ -149,8 +152,15 @@ fn comments_tell_the_times_of_blocks() {
     }
     // A column decides.
     assert_eq!(times("# time = 7\nt X u\n1 0 1\n"), Ok(vec![(Some(1.0), 1)]));
+    // Lines without a mark that say a time are no rows either.
+    for line in ["TIME 0.25", "time = 0.25", "Time: 2.5e-1 s", "t = 0.25"] {
+        assert_eq!(times(&format!("{line}\nX u\n0 1\n")), Ok(vec![(Some(0.25), 1)]), "{line}");
+        let later = format!("# time = 0.1\nX u\n0 1\n{line}\n0 1\n1 2\n");
+        assert_eq!(times(&later), Ok(vec![(Some(0.1), 1), (Some(0.25), 2)]), "{line}");
+    }
+    assert_eq!(times("time u\n0.5 1\n"), Ok(vec![(Some(0.5), 1)]));
     let late = times("X u\n0 1\n# time = 1\n0 1\n").unwrap_err();
-    assert!(late.contains("points before the first comment"), "{late}");
+    assert!(late.contains("points before the first line that says"), "{late}");
 }
 
 #[test]

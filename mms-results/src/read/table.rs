@@ -65,13 +65,16 @@ fn read(text: &str, wanted: &Wanted<'_>) -> Result<TableColumns, Mistake> {
     let lines = text.lines().enumerate().map(|(at, line)| (at + 1, line));
     let mut lines = lines.filter(|(_, line)| !line.trim().is_empty()).peekable();
     let (mut comment, mut time) = (None, None);
-    while let Some(line) = lines.next_if(|(_, line)| is_comment(line)) {
-        (comment, time) = (Some(line), time_of(line.1).or(time));
+    while let Some(line) = lines.next_if(|(_, line)| is_remark(line)) {
+        time = time_of(line.1).or(time);
+        comment = Some(line).filter(|(_, text)| is_comment(text)).or(comment);
     }
     let first = lines.peek().copied();
     let named = wanted.columns().join(",");
     let header = match first {
-        Some((line, _)) if !named.is_empty() => Header::of((line, &named)),
+        Some((line, _)) if !named.is_empty() => {
+            Header { line, text: &named, separator: Separator::of(&named), is_given: true }
+        }
         _ => header(comment, first)?,
     };
     let is_header = |text: &str| text.trim() == header.text.trim();
@@ -83,7 +86,7 @@ fn read(text: &str, wanted: &Wanted<'_>) -> Result<TableColumns, Mistake> {
         Some((_, text)) if !named.is_empty() => Separator::of(text),
         _ => header.separator,
     };
-    let mut rows = lines.clone().filter(|(_, line)| !is_comment(line));
+    let mut rows = lines.clone().filter(|(_, line)| !is_remark(line));
     let Some((_, first)) = rows.next() else {
         return Err(Mistake::new("a header, and no line of numbers after it"));
     };
@@ -92,7 +95,7 @@ fn read(text: &str, wanted: &Wanted<'_>) -> Result<TableColumns, Mistake> {
     wanted.reserve("the table", read * memchr::memchr_iter(b'\n', text.as_bytes()).count())?;
     let (mut rows, mut times) = (Vec::new(), Column::new(0, TIMES[0], Need::Must));
     for (line, text) in lines {
-        if is_comment(text) {
+        if is_remark(text) {
             time = time_of(text).or(time);
             continue;
         }
@@ -110,7 +113,7 @@ fn read(text: &str, wanted: &Wanted<'_>) -> Result<TableColumns, Mistake> {
     let has_column = columns.all.iter().any(|it| is_time(&it.name));
     if !has_column && !times.values.is_empty() {
         if times.values.len() < rows.len() {
-            let what = "points before the first comment that says their time, as in `# time = 0.1`";
+            let what = "points before the first line that says their time, as in `# time = 0.1`";
             return Err(Mistake::at(rows[0], what));
         }
         columns.all.push(times);
@@ -120,7 +123,8 @@ fn read(text: &str, wanted: &Wanted<'_>) -> Result<TableColumns, Mistake> {
 
 /// Reads rows separated by blanks, below a line of names.
 pub fn block(names: Line<'_>, rows: &[Line<'_>], wanted: &Wanted<'_>) -> Result<Snapshot, Mistake> {
-    let header = Header { line: names.0, text: names.1, separator: Separator::Blanks };
+    let (line, text) = names;
+    let header = Header { line, text, separator: Separator::Blanks, is_given: false };
     let first = rows.first().map_or("", |(_, text)| text);
     let mut columns = header.columns(first, Separator::Blanks, wanted)?;
     let read = columns.all.iter().filter(|it| it.is_stored()).count();
@@ -151,6 +155,15 @@ fn has_no_number(line: &str) -> bool {
 /// Whether a field is a number, with a decimal point or a decimal comma.
 fn is_number(text: &str) -> bool {
     number(text).is_some() || with_point(text).is_some_and(|text| number(&text).is_some())
+}
+
+/// Whether a line holds no row: a comment, or a line that says the time of the next rows, as in `TIME 0.1`.
+fn is_remark(line: &str) -> bool {
+    let says_time = || {
+        let word = line.split(|it: char| !it.is_alphanumeric()).find(|it| !it.is_empty());
+        word.is_some_and(is_time) && time_of(line).is_some()
+    };
+    is_comment(line) || says_time()
 }
 
 fn is_comment(line: &str) -> bool {
@@ -210,6 +223,8 @@ struct Header<'a> {
     line: usize,
     text: &'a str,
     separator: Separator,
+    /// Whether the user gave the names, and not the file.
+    is_given: bool,
 }
 
 impl<'a> Header<'a> {
@@ -220,7 +235,7 @@ impl<'a> Header<'a> {
         } else {
             text
         };
-        Header { line, text, separator: Separator::of(text) }
+        Header { line, text, separator: Separator::of(text), is_given: false }
     }
 
     fn names(&self) -> impl Iterator<Item = &'a str> {
@@ -270,15 +285,19 @@ impl<'a> Header<'a> {
             units.extend(unit.map(|unit| (name.to_owned(), unit.to_owned())));
             if !seen.insert(name) {
                 let what = format!("two columns are called `{name}`");
-                return Err(Mistake::at(self.line, what));
+                return Err(match self.is_given {
+                    true => Mistake::new(format!("`--columns`: {what}")),
+                    false => Mistake::at(self.line, what),
+                });
             }
             match if is_time(name) { Need::Must } else { wanted.need(name) } {
                 Need::No => unread.push(name.to_owned()),
                 need => all.push(Column::new(at, name, need)),
             }
         }
-        let count = names.len();
-        Ok(Columns { count, has_end, index, all, unread, units, points: None, commas: None })
+        let (count, is_given) = (names.len(), self.is_given);
+        let (points, commas) = (None, None);
+        Ok(Columns { count, is_given, has_end, index, all, unread, units, points, commas })
     }
 }
 
@@ -309,6 +328,8 @@ fn header<'a>(comment: Option<Line<'a>>, first: Option<Line<'a>>) -> Result<Head
 /// The columns that are read.
 struct Columns {
     count: usize,
+    /// Whether the user gave the names.
+    is_given: bool,
     /// Whether a separator ends each line.
     has_end: bool,
     /// The number of the next point, if the first column counts them and has no name.
@@ -354,11 +375,17 @@ impl Columns {
             found -= 1;
         }
         if found != self.count {
-            let what = format!(
-                "{found} columns, and {} names in the header; separate columns by one comma, tab or semicolon, or by \
-                 blanks",
-                self.count
-            );
+            let count = self.count;
+            let what = match self.is_given {
+                true => format!(
+                    "{found} columns, and {count} names in `--columns`: expected a name for each column, also for those that \
+                     hold no quantity"
+                ),
+                false => format!(
+                    "{found} columns, and {count} names in the header; separate columns by one comma, tab or semicolon, or \
+                     by blanks"
+                ),
+            };
             return Err(Mistake::at(line, what));
         }
         if let (Some(point), Some(comma)) = (self.points, self.commas) {
