@@ -46,7 +46,7 @@ impl Section {
 
 /// The text of the field in space whose section this is.
 fn in_space(flat: &Compiled) -> String {
-    mms_spec::section::in_space(&flat.field).expect("a text")
+    mms_spec::section::in_space(&flat.field, flat.field.material.model.value.raw()).expect("a text")
 }
 
 const PLAIN: Section = Section {

@@ -8,18 +8,18 @@ use crate::foreign::Foreign;
 use crate::formula::Formula;
 
 /// The text of the field in space whose section is an axisymmetric field. The body is the part of the body of revolution away
-/// from the axis, where R has no derivative.
+/// from the axis, where R has no derivative. `model` is the material: a name that ships, or the path of a file from the folder
+/// of the text.
 ///
 /// # Errors
-/// The first property of the field that a file in space cannot have: given fields, further balances, a rigid motion, a material
-/// of its own, or Cartesian coordinates.
-pub fn in_space(field: &FieldSpec) -> Result<String, &'static str> {
+/// The first property of the field that a file in space cannot have: given fields, further balances, a rigid motion, or
+/// Cartesian coordinates.
+pub fn in_space(field: &FieldSpec, model: &str) -> Result<String, &'static str> {
     let refused = [
         (!field.space.is_axisymmetric(), "it is not axisymmetric"),
         (!field.givens.is_empty() || !field.material.givens.is_empty(), "it has given fields"),
         (!field.balances.is_empty(), "it has further balances"),
         (field.rigid.is_some(), "it has a rigid motion"),
-        (field.material.model.value.raw().ends_with(".toml"), "its material is a file"),
     ];
     if let Some((_, why)) = refused.into_iter().find(|(is_there, _)| *is_there) {
         return Err(why);
@@ -35,7 +35,7 @@ pub fn in_space(field: &FieldSpec) -> Result<String, &'static str> {
         text += &format!("{} = {}\n", definition.name.value, quoted(&definition.value.text));
     }
     text += &format!("\n[displacement]\nu = [{along_x}, {along_y}, {axial}]\n");
-    text += &material(field);
+    text += &material(field, model);
     text += &body(field);
     Ok(text)
 }
@@ -69,9 +69,9 @@ fn parameters(field: &FieldSpec) -> String {
     format!("\n[parameters]\n{}", field.parameters.iter().map(line).collect::<String>())
 }
 
-fn material(field: &FieldSpec) -> String {
+fn material(field: &FieldSpec, model: &str) -> String {
     let used = &field.material;
-    let mut text = format!("\n[material]\nmodel = {}\n", word(&used.model.value));
+    let mut text = format!("\n[material]\nmodel = {}\n", quoted(model));
     for (name, value) in &used.arguments {
         text += &format!("{} = {}\n", name.value, quoted(&value.text));
     }

@@ -331,5 +331,16 @@ fn a_field_in_space_is_written_of_its_section() {
         folder.mms(&new).exits(2).complains(says);
     }
     folder.mms("new other --from-axisymmetric axisymmetric_rod --dimension 2").exits(2);
+    // A material file stays where it is.
+    folder.write("rubber.toml", include_str!("../../mms-codegen/materials/neo_hookean.toml"));
+    let rod = include_str!("../../fields/axisymmetric_rod.toml");
+    let own = rod.replace("\"neo_hookean\"", "\"./rubber.toml\"");
+    assert_ne!(rod, own);
+    folder.write("own.toml", &own);
+    for (new, written) in [("new own_3d", "own_3d.toml"), ("new own_3d -o far", "far/own_3d.toml")]
+    {
+        folder.mms(&format!("{new} --from-axisymmetric own.toml")).exits(0);
+        folder.mms(&format!("check {written}")).exits(0);
+    }
     folder.mms("new other").exits(2).complains("--dimension");
 }

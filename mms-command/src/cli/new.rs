@@ -66,9 +66,10 @@ impl New {
         if self.shape == Body::Annulus && dimension != 2 {
             bail!("`--shape annulus` is 2-dimensional: it needs `--dimension 2`");
         }
-        let section = self.from_axisymmetric.as_deref().map(in_space).transpose()?;
-        let material = template::material(&self.material)?;
         let folder = self.folder();
+        let section = self.from_axisymmetric.as_deref();
+        let section = section.map(|field| in_space(field, &folder)).transpose()?;
+        let material = template::material(&self.material)?;
         let path = folder.join(format!("{}.toml", self.name));
         let shown = foreign::path(&path);
         // First, since `..` leads nowhere from a folder that is not there.
@@ -115,15 +116,37 @@ impl New {
     }
 }
 
-/// The text of the field of three dimensions that a named axisymmetric field generates by revolution.
-fn in_space(field: &str) -> anyhow::Result<String> {
+/// The text of the field of three dimensions that a named axisymmetric field generates by revolution, for a file in a folder.
+fn in_space(field: &str, folder: &Path) -> anyhow::Result<String> {
     let input = Input::new(open(field)?, &Options::default())?;
-    section::in_space(&input.compiled.field).map_err(|why| {
+    let spec = &input.compiled.field;
+    let refuse = |why: &str| {
         anyhow!(
             "`--from-axisymmetric {}`: {why}; expected an axisymmetric field without that",
             shown(field)
         )
-    })
+    };
+    let model = spec.material.model.value.raw();
+    let model = match model.ends_with(".toml") {
+        true if !field.ends_with(".toml") => {
+            return Err(refuse("its material is a file, and the field is named without its path"));
+        }
+        true => seen_from(folder, Path::new(field).parent().unwrap_or(Path::new("")), model)?,
+        false => model.to_owned(),
+    };
+    section::in_space(spec, &model).map_err(refuse)
+}
+
+/// A path from the folder `other`, as a path from `folder`: the same if both are one folder, otherwise absolute.
+fn seen_from(folder: &Path, other: &Path, path: &str) -> anyhow::Result<String> {
+    let whole = |it: &Path| std::path::absolute(it).map(|it| it.components().collect::<PathBuf>());
+    // The empty path is the working folder.
+    let [folder, other] = [folder, other].map(|it| whole(&Path::new(".").join(it)));
+    let (folder, other) = (folder?, other?);
+    match folder == other {
+        true => Ok(path.to_owned()),
+        false => Ok(whole(&other.join(path))?.to_string_lossy().into_owned()),
+    }
 }
 
 /// Writes a file that must not be there yet.
