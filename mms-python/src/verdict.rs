@@ -3,7 +3,6 @@
 use mms_codegen::Compiled;
 use mms_convergence::TOLERANCE;
 use mms_diagnosis::changed::Without;
-use mms_diagnosis::material::Material;
 use mms_diagnosis::scene::{self, Evidence};
 use mms_diagnosis::solver::Solver;
 use mms_documents::provenance::{Machine, Provenance, VERSION};
@@ -12,7 +11,7 @@ use mms_files::machine::{processor, processors};
 use mms_files::results::Disk;
 use mms_judge::Judgements;
 use mms_judge::diagnose::{
-    Alone, Factors, Reading as Looking, falls, find, left_out, question, read,
+    Alone, Reading as Looking, diagnose as named, falls, find, keep_own, left_out, read,
 };
 use mms_judge::results::{Comparison, Over, Reading, Results, Start, axes, measure, own_roles};
 use mms_judge::table::ExpectedOrders;
@@ -216,9 +215,7 @@ fn diagnose(
         let all = results.iter().enumerate().map(|(at, it)| it.results(at, find));
         let mut all = all.collect::<anyhow::Result<Vec<Results>>>()?;
         let files: Vec<_> = all.iter().map(|it| it.name.clone()).collect();
-        let is_static = opened.input.is_static();
-        all.iter_mut().filter(|_| is_static).for_each(Results::keep_last);
-        all.iter_mut().try_for_each(|it| it.keep_own().map(drop))?;
+        keep_own(&mut all, opened.input.is_static())?;
         let reading = Looking {
             files: &Disk,
             right: &[],
@@ -249,13 +246,9 @@ fn diagnose(
             _ => None,
         };
         let solver = Solver { without, like: None, falls, is_compared_with_right_run: false };
-        let factors = Factors::new(&exact);
-        let times = |parameter, factor| factors.times(parameter, factor);
-        let material = Material { names: factors.names(), times: &times };
-        let diagnosis = scene::diagnose(&scene, &evidence, &solver, &material, follower)?;
+        let (diagnosis, question) = named(&exact, &evidence, &solver, follower)?;
         let provenance = provenance("diagnose", opened);
         let input = &opened.input;
-        let question = question(diagnosis.finding, &evidence, &exact)?;
         let (diagnosis, next) = (&diagnosis, None);
         let report = Diagnosed { input, files: &files, diagnosis, question, next, provenance };
         Ok((Views::of(&report, None)?, notes.iter().map(|it| in_keywords(it)).collect()))

@@ -12,18 +12,15 @@ use mms_diagnosis::answer::DiagnosisFinding;
 use mms_diagnosis::changed::Without;
 use mms_diagnosis::evidence::Mesh;
 use mms_diagnosis::exact::Quantity as Seen;
-use mms_diagnosis::follow::Unfollowed;
-use mms_diagnosis::material::Material;
 use mms_diagnosis::scene::{self, Evidence};
 use mms_diagnosis::solver::Solver;
 use mms_exact::Exact;
 use mms_exact::{Input, evaluated};
 use mms_files::results::Disk;
 use mms_judge::diagnose::{
-    Alone, Factors, Reading, falls, find, gradients, left_out, question, read,
+    Alone, Reading, diagnose, falls, find, gradients, keep_own, left_out, read,
 };
 use mms_judge::next::{self, Meshes};
-use mms_judge::results::Results;
 use mms_judge::table::{ExpectedOrders, NamedOrder};
 use mms_options::field::{Variant, open};
 use mms_options::method::{MethodOptions, finite, length, positive};
@@ -37,6 +34,7 @@ use super::format::{Detail, Printing};
 use super::naming::Naming;
 use super::next::typed;
 use super::{CommandOutcome, print, replaced, say, this_command, validate_output};
+use crate::session::progress::StatusLine;
 
 /// Name the mistake in a solver from the error that it makes.
 ///
@@ -214,12 +212,10 @@ impl Diagnose {
         let all = self.files.iter().map(|file| find(file, &names, self.max_memory, &Disk));
         let mut all = all.collect::<anyhow::Result<Vec<_>>>()?;
         let is_static = exact.input().is_static();
-        all.iter_mut().filter(|_| is_static).for_each(Results::keep_last);
-        all.iter_mut().try_for_each(|it| it.keep_own().map(drop))?;
+        keep_own(&mut all, is_static)?;
         let right = self.reference.iter().map(|file| find(file, &names, self.max_memory, &Disk));
         let mut right = right.collect::<anyhow::Result<Vec<_>>>()?;
-        right.iter_mut().filter(|_| is_static).for_each(Results::keep_last);
-        right.iter_mut().try_for_each(|it| it.keep_own().map(drop))?;
+        keep_own(&mut right, is_static)?;
         let reading = Reading {
             files: &Disk,
             right: &right,
@@ -264,11 +260,7 @@ impl Diagnose {
             _ => None,
         };
         let solver = Solver { without, like, falls, is_compared_with_right_run: !right.is_empty() };
-        let factors = Factors::new(&exact);
-        let times = |parameter, factor| factors.times(parameter, factor);
-        let material = Material { names: factors.names(), times: &times };
-        let diagnosis = scene::diagnose(&scene, &evidence, &solver, &material, &Unfollowed)?;
-        let question = question(diagnosis.finding, &evidence, &exact)?;
+        let (diagnosis, question) = diagnose(&exact, &evidence, &solver, &StatusLine::new())?;
         let input = exact.input();
         let meshes = self.meshes(reading.rest);
         let next = next::after_diagnosis(&diagnosis, &meshes, &typed());

@@ -37,7 +37,7 @@ use super::methods::Methods;
 use super::{CommandOutcome, output_folder, print, replaced, say};
 use crate::provenance::{self, Provenance};
 use crate::session::estimate::estimate;
-use crate::session::progress::Progress;
+use crate::session::progress::{Progress, StatusLine};
 
 /// Run the built-in solver on finer and finer grids, or with smaller and smaller time steps: errors, observed orders,
 /// verdict.
@@ -183,7 +183,7 @@ impl Study {
         let folder = output_folder(self.output.as_deref(), input.name.raw())?;
         self.figure.validate()?;
         let provenance = provenance::new("study", words, input.provenance(&self.set));
-        let studies = self.reports(&cases, words, &provenance, (&progress, &Unfollowed))?;
+        let studies = self.reports(&cases, words, &provenance, (&progress, &StatusLine::new()))?;
         let is_started = studies.iter().any(Report::is_started);
         let report = Comparison { studies, provenance };
         if is_started || self.printing.is_json() {

@@ -3,6 +3,7 @@
 use std::io::IsTerminal as _;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use mms_judge::Follow;
 use mms_lab::trial;
 use mms_runtime::Division;
 use mms_runtime::study::Observer;
@@ -16,11 +17,7 @@ pub struct Progress {
 
 impl Progress {
     pub fn new() -> Self {
-        let bar = if std::io::stderr().is_terminal() {
-            ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr_with_hz(10))
-        } else {
-            ProgressBar::hidden()
-        };
+        let bar = on_terminal();
         if let Ok(style) = ProgressStyle::with_template(
             "{msg} {bar:40} {percent:>3}% {per_sec} particles and steps, {eta:>4} left",
         ) {
@@ -55,6 +52,48 @@ impl trial::Progress for Progress {
 
     fn finish(&self) {
         Progress::finish(self);
+    }
+}
+
+/// A bar that is drawn if standard error is a terminal.
+fn on_terminal() -> ProgressBar {
+    if std::io::stderr().is_terminal() {
+        ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr_with_hz(10))
+    } else {
+        ProgressBar::hidden()
+    }
+}
+
+/// One line on a terminal that says what is tried now, as in "mistake to exclude: 3 of 48"; nothing elsewhere. The line vanishes
+/// with the value.
+pub struct StatusLine {
+    line: ProgressBar,
+}
+
+impl StatusLine {
+    pub fn new() -> Self {
+        let line = on_terminal();
+        if let Ok(style) = ProgressStyle::with_template("{msg}") {
+            line.set_style(style);
+        }
+        StatusLine { line }
+    }
+}
+
+impl Follow for StatusLine {
+    fn is_stopped(&self) -> bool {
+        false
+    }
+
+    fn say(&self, line: &str) {
+        self.line.set_message(line.to_owned());
+        self.line.tick();
+    }
+}
+
+impl Drop for StatusLine {
+    fn drop(&mut self) {
+        self.line.finish_and_clear();
     }
 }
 

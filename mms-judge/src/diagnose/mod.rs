@@ -6,11 +6,14 @@ mod nodes;
 mod parameters;
 
 use anyhow::{Context as _, bail, ensure};
-use mms_diagnosis::answer::DiagnosisFinding;
+use mms_diagnosis::answer::{Diagnosis, DiagnosisFinding};
 use mms_diagnosis::changed::Without;
 use mms_diagnosis::evidence::{Mesh as Level, Snapshot as Instant};
 use mms_diagnosis::exact::Quantity;
-use mms_diagnosis::scene::{Evidence, StressData, TangentData};
+use mms_diagnosis::follow::Follow;
+use mms_diagnosis::material::Material;
+use mms_diagnosis::scene::{self, Evidence, StressData, TangentData};
+use mms_diagnosis::solver::Solver;
 use mms_diagnosis::state::{Computed, Response};
 use mms_diagnosis::table::Measure;
 use mms_results::mesh::Mesh;
@@ -19,9 +22,9 @@ use mms_results::{Files, Snapshot, Stored};
 use mms_spec::quantity;
 
 pub use self::judged::falls;
-pub use self::parameters::Factors;
 
 use self::nodes::{Nodes, volumes};
+use self::parameters::Factors;
 use crate::results::{Results, Sample, motion, placed, room};
 use mms_exact::Exact;
 
@@ -107,6 +110,37 @@ pub fn find(
     Results::find(given, &wanted(names, &|_| true).within(room, advice), files)
 }
 
+/// Removes ghosts and duplicate cells; for a field without time, also all snapshots but the last.
+///
+/// # Errors
+/// A duplicate cell with different values.
+pub fn keep_own(all: &mut [Results], is_static: bool) -> anyhow::Result<()> {
+    all.iter_mut().try_for_each(|it| {
+        if is_static {
+            it.keep_last();
+        }
+        it.keep_own().map(drop)
+    })
+}
+
+/// Diagnoses evidence, and asks about a parameter of the field if results with an error fit another value of it much better.
+///
+/// # Errors
+/// The obstacles of a diagnosis; a quantity that is too large to derive.
+pub fn diagnose(
+    exact: &Exact,
+    evidence: &Evidence,
+    solver: &Solver,
+    follow: &dyn Follow,
+) -> anyhow::Result<(Diagnosis, Option<String>)> {
+    let factors = Factors::new(exact);
+    let times = |parameter, factor| factors.times(parameter, factor);
+    let material = Material { names: factors.names(), times: &times };
+    let diagnosis = scene::diagnose(&exact.scene()?, evidence, solver, &material, follow)?;
+    let question = question(diagnosis.finding, evidence, exact)?;
+    Ok((diagnosis, question))
+}
+
 /// Reads files, from coarse to fine, as evidence.
 ///
 /// # Errors
@@ -149,12 +183,8 @@ pub fn read(all: &[Results], reading: &Reading<'_>, exact: &mut Exact) -> anyhow
     Ok(Evidence::Results(levels))
 }
 
-/// Asks about a parameter of the field, if results with an error fit another value of it much better; `None` for evidence other
-/// than displacements.
-///
-/// # Errors
-/// A quantity that is too large to derive.
-pub fn question(
+/// The question about a parameter; `None` for evidence other than displacements.
+fn question(
     found: DiagnosisFinding,
     evidence: &Evidence,
     exact: &Exact,

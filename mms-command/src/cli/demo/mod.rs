@@ -24,15 +24,13 @@ use mms_convergence::{TOLERANCE, Verdict};
 use mms_diagnosis::answer::{Diagnosis, DiagnosisFinding};
 use mms_diagnosis::changed::Without;
 use mms_diagnosis::follow::Unfollowed;
-use mms_diagnosis::material::Material;
-use mms_diagnosis::scene;
 use mms_diagnosis::solver::Solver;
 use mms_emit::{Subject, Target};
 use mms_exact::{Exact, Input, settings};
 use mms_files::shell::quoted;
 use mms_files::write::write_own;
 use mms_judge::Judgements;
-use mms_judge::diagnose::{Factors, Reading, falls, find, read};
+use mms_judge::diagnose::{Reading, diagnose as named, falls, find, read};
 use mms_judge::results::{self, Comparison, measure};
 use mms_judge::table::ExpectedOrders;
 use mms_options::field::open;
@@ -217,7 +215,6 @@ fn diagnose(tables: &Tables, exact: &mut Exact) -> anyhow::Result<Diagnosis> {
         is_nodal: false,
     };
     let evidence = read(&all, &reading, exact)?;
-    let scene = exact.scene()?;
     let falls = falls(all, &[], &reading, &ExpectedOrders::new(&[], TOLERANCE), exact)?;
     let solver = Solver {
         without: Without::default(),
@@ -225,10 +222,7 @@ fn diagnose(tables: &Tables, exact: &mut Exact) -> anyhow::Result<Diagnosis> {
         falls,
         is_compared_with_right_run: false,
     };
-    let factors = Factors::new(exact);
-    let times = |parameter, factor| factors.times(parameter, factor);
-    let material = Material { names: factors.names(), times: &times };
-    Ok(scene::diagnose(&scene, &evidence, &solver, &material, &Unfollowed)?)
+    Ok(named(exact, &evidence, &solver, &Unfollowed)?.0)
 }
 
 /// The sentence of a verdict.

@@ -11,13 +11,13 @@ use mms_exact::Exact;
 use mms_exact::evaluated;
 use mms_files::read::{self, FileKind};
 use mms_files::results::Disk;
+use mms_judge::Judgements;
 use mms_judge::next::{self, Meshes};
 use mms_judge::results::{
     Baseline, Comparison, Explained, Measurement, Over, Reading, Results, Start, measure, room,
     same, weight,
 };
 use mms_judge::table::ExpectedOrders;
-use mms_judge::{Judgements, Unfollowed};
 use mms_options::field::{Variant, find};
 use mms_options::method::{finite, length};
 use mms_report::{differences, with_baseline};
@@ -31,6 +31,7 @@ use super::super::next::typed;
 use super::super::warned::warned;
 use super::super::{CommandOutcome, say, this_command};
 use super::{Judge, outcome};
+use crate::session::progress::StatusLine;
 
 /// How results are read.
 #[derive(Args)]
@@ -150,7 +151,7 @@ impl Judge {
             measurement,
             None,
             provenance,
-            &Unfollowed,
+            &StatusLine::new(),
         )?;
         if !report.verdict().is_good() {
             let found = warned(exact.input(), &options.set, &options.variant)?;
@@ -212,13 +213,14 @@ impl Judge {
             .map(|file| reading.find(file, exact))
             .collect::<anyhow::Result<_>>()?;
         let tighter = options.tighter.as_deref().map(|it| reading.find(it, exact)).transpose()?;
+        let status = StatusLine::new();
         let comparison = Comparison {
             sizes: &options.h,
             times: &options.time,
             orders,
             has_steps: false,
             tighter,
-            follow: &Unfollowed,
+            follow: &status,
         };
         measure(all, &reading, exact, comparison)
     }
