@@ -21,9 +21,6 @@ pub trait Work<T> {
     /// used.
     const GAINS_BY_AVX512: bool = true;
 
-    /// Whether there is a version for AVX2 in builds with debug assertions, for tests that ask for these instructions.
-    const HAS_AVX2_IN_DEBUG: bool = cfg!(test);
-
     /// Does the work, with loops over `M::Lane` and eight numbers at a time. All called functions have to be inlined, or they
     /// are not compiled for the instruction set.
     fn on<M: Simd<T>>(self, simd: M) -> Self::Output;
@@ -54,8 +51,7 @@ enum IsaLevel {
 
 const LEVELS: [IsaLevel; 3] = [IsaLevel::Baseline, IsaLevel::Avx2, IsaLevel::Avx512];
 
-/// The instructions of work that asks for none. With debug assertions these are the baseline: such programs may be slow, and a
-/// second version of every batch and of every step of a solver would double the time to compile them.
+/// The instructions of work that asks for none.
 const USUAL: &[IsaLevel] =
     if cfg!(all(debug_assertions, not(test))) { &[IsaLevel::Baseline] } else { &LEVELS };
 
@@ -117,7 +113,7 @@ impl Instructions {
     }
 
     /// The best instructions that the processor has and the environment variable [`LIMIT`] allows; with debug assertions the
-    /// baseline. The variable is read once.
+    /// baseline, as in [`run`](Instructions::run). The variable is read once.
     #[inline]
     pub fn best() -> Instructions {
         // An index into `LEVELS`; initially invalid.
@@ -133,9 +129,19 @@ impl Instructions {
         }
     }
 
-    /// Does work with these instructions.
+    /// Does work with these instructions, or with the baseline in builds with debug assertions. Such programs may be slow, and a
+    /// second version of every batch and of every step of a solver would double the time to compile them.
     #[inline]
     pub fn run<T: Float, W: Work<T>>(self, work: W) -> W::Output {
+        #[cfg(all(debug_assertions, not(test)))]
+        return baseline(work);
+        #[cfg(any(not(debug_assertions), test))]
+        self.run_in_any_build(work)
+    }
+
+    /// Does work with these instructions, with debug assertions or without.
+    #[inline]
+    pub fn run_in_any_build<T: Float, W: Work<T>>(self, work: W) -> W::Output {
         match self.0 {
             // Safety: the processor has the instructions that the function is compiled for, or there would be no such value.
             #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
@@ -144,9 +150,7 @@ impl Instructions {
             // Safety: likewise; a processor with AVX-512 has AVX2.
             #[cfg(target_arch = "x86_64")]
             #[allow(unsafe_code)]
-            IsaLevel::Avx2 | IsaLevel::Avx512
-                if !cfg!(debug_assertions) || W::HAS_AVX2_IN_DEBUG =>
-            unsafe { avx2(work) },
+            IsaLevel::Avx2 | IsaLevel::Avx512 => unsafe { avx2(work) },
             _ => baseline(work),
         }
     }

@@ -58,7 +58,10 @@ impl BlockMode {
     }
 
     fn run<T: Float, W: Work<T>>(self, work: W) -> W::Output {
-        if self.fused { self.instructions.run(work) } else { self.instructions.run_plainly(work) }
+        match self.fused {
+            true => self.instructions.run_in_any_build(work),
+            false => self.instructions.run_plainly(work),
+        }
     }
 }
 

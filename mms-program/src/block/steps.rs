@@ -190,8 +190,6 @@ struct Arithmetic<'a, 'b, T, const C: usize, const K: usize> {
 impl<T: Float, const C: usize, const K: usize> Work<T> for Arithmetic<'_, '_, T, C, K> {
     type Output = ();
 
-    const HAS_AVX2_IN_DEBUG: bool = true;
-
     #[inline(always)]
     fn on<M: Simd<T>>(self, _: M) {
         for step in self.steps {
@@ -210,8 +208,6 @@ struct Unary<'a, T, F, const C: usize> {
 impl<T: Float, F: OfOne, const C: usize> Work<T> for Unary<'_, T, F, C> {
     type Output = ();
 
-    const HAS_AVX2_IN_DEBUG: bool = true;
-
     #[inline(always)]
     fn on<M: Simd<T>>(self, _: M) {
         one::<T, M::Lane, C>(self.result, self.argument, |x| self.function.at(x));
@@ -227,8 +223,6 @@ struct Binary<'a, T, F, const C: usize> {
 
 impl<T: Float, F: OfTwo, const C: usize> Work<T> for Binary<'_, T, F, C> {
     type Output = ();
-
-    const HAS_AVX2_IN_DEBUG: bool = true;
 
     #[inline(always)]
     fn on<M: Simd<T>>(self, _: M) {
