@@ -1,5 +1,5 @@
-//! The files that a run depends on: the program that its command starts, the interpreters of that program, and all files named
-//! in words of the command.
+//! The files that a run depends on: the program that its command starts, the interpreters of that program, all files named in
+//! words of the command, and the modules beside them that Python files import.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use mms_files::read;
 
 use super::digests::{Content, Digests};
+use super::imports::{MOST_BYTES, imported};
 
 /// The placeholder in a word for a path that is not known before the run.
 pub const UNKNOWN: char = '\0';
@@ -100,8 +101,8 @@ impl SearchFolders<'_> {
 /// The most folders that are searched.
 const MOST_FOLDERS: usize = 16;
 
-/// The most interpreters in a chain of `#!` lines.
-const MOST_INTERPRETERS: usize = 4;
+/// The most files of a command.
+const MOST_FILES: usize = 1000;
 
 /// The search for the files of a command.
 struct Search<'a> {
@@ -148,24 +149,24 @@ impl Search<'_> {
         ends.map(|it| self.part(&it, false)).contains(&true)
     }
 
-    /// Adds a file, and the interpreters that its first line names.
+    /// Adds a file, the interpreters that its first line names, and the modules that it imports.
     fn file(&mut self, path: &Path) -> bool {
+        // Python searches the folder of the script, and other folders that the environment names.
+        let mut folders = self.folders.clone();
+        folders.extend(path.parent().map(Path::to_owned));
         let mut paths = vec![path.to_owned()];
         let mut is_found = false;
-        for _ in 0..=MOST_INTERPRETERS {
-            let mut next = Vec::new();
-            for path in paths {
-                let Some(found) = Dependency::new(&path, self.place.here, self.place.digests)
-                else {
-                    continue;
-                };
-                is_found = true;
-                self.found.is_complete &= matches!(found.content, Content::Digest(_));
-                if self.found.files.insert(found.name.clone(), found).is_none() {
-                    next.extend(self.interpreters(&path));
-                }
+        while let Some(path) = paths.pop() {
+            let Some(found) = Dependency::new(&path, self.place.here, self.place.digests) else {
+                continue;
+            };
+            is_found = true;
+            let has_room = self.found.files.len() < MOST_FILES;
+            self.found.is_complete &= has_room && matches!(found.content, Content::Digest(_));
+            if has_room && self.found.files.insert(found.name.clone(), found).is_none() {
+                paths.extend(self.interpreters(&path));
+                paths.extend(modules(&path, &folders));
             }
-            paths = next;
         }
         is_found
     }
@@ -189,6 +190,16 @@ impl Search<'_> {
         let mut paths = std::env::split_paths(&self.path).map(|it| start.join(it).join(name));
         paths.find(|it| is_program(it))
     }
+}
+
+/// The files that a Python file may import from its own folder and from others.
+fn modules(path: &Path, others: &[PathBuf]) -> Vec<PathBuf> {
+    let Some(folder) = path.parent().filter(|_| path.extension().is_some_and(|it| it == "py"))
+    else {
+        return Vec::new();
+    };
+    let text = read::first(path, MOST_BYTES).unwrap_or_default();
+    imported(&String::from_utf8_lossy(&text), folder, others)
 }
 
 /// Whether a path leads to a file that can be started.
@@ -327,6 +338,39 @@ mod tests {
         assert_eq!(names(&of(None, &[&absolute])), ["solve"]);
         let shell = of(Some(here), &["sh"]);
         assert!(shell.files.keys().any(|it| it.ends_with("/sh")), "on the PATH");
+    }
+
+    #[test]
+    fn a_script_depends_on_the_modules_that_it_imports() {
+        let folder = tempfile::tempdir().unwrap();
+        let here = folder.path();
+        fs::create_dir_all(here.join("code/pkg")).unwrap();
+        for (file, text) in [
+            ("code/solve.py", "import numpy, mesh\nfrom pkg.law import stress\n"),
+            ("code/mesh.py", "def f():\n    from solve import x\n"),
+            ("code/pkg/__init__.py", ""),
+            ("code/pkg/law.py", "from . import moduli\n"),
+            ("code/pkg/moduli.py", "import pkg.other\n"),
+            ("code/pkg/other.py", ""),
+            ("code/unused.py", ""),
+        ] {
+            mms_files::write::write_whole(&here.join(file), text).unwrap();
+        }
+        let digests = Digests::default();
+        let of = |directory: &Path, words: [&str; 2]| {
+            let words = words.map(str::to_owned);
+            SearchFolders { here, directory: Some(directory), digests: &digests }
+                .dependencies(&words)
+        };
+        let all = ["mesh", "pkg/__init__", "pkg/law", "pkg/moduli", "pkg/other", "solve"];
+        let all = all.map(|it| format!("code/{it}.py"));
+        for (directory, script) in
+            [(here.join("code"), "solve.py"), (here.to_owned(), "code/solve.py")]
+        {
+            let found = of(&directory, ["sh", script]);
+            assert_eq!(names(&found), all);
+            assert!(found.is_complete);
+        }
     }
 
     #[test]

@@ -312,7 +312,7 @@ pub const CRATES: &[Crate] = &[
             "mms-symbolic",
         ],
         layers: &[
-            "digests only profile",
+            "digests imports only profile",
             "dependencies sources",
             "plan suggest",
             "canary work",
