@@ -38,8 +38,11 @@ fn a_bar_needs_the_solver_of_a_bar() {
     assert!(!named(&["mms_runtime"]).is_empty(), "names are there");
     // In the names of symbols, the length of a part is before it.
     let (passes, sums) = (4, 2 * (2 + 3));
-    let kernels = named(&["8dispatch8baseline"]);
-    assert_eq!(kernels.len(), passes, "{kernels:?}");
+    // With more optimisation they are inlined.
+    if cfg!(debug_assertions) {
+        let kernels = named(&["8dispatch8baseline"]);
+        assert_eq!(kernels.len(), passes, "{kernels:?}");
+    }
     let kernels = named(&["Plain", "5apart"]);
     assert!(kernels.is_empty(), "{kernels:?}");
     if cfg!(all(target_arch = "x86_64", debug_assertions)) {
