@@ -79,8 +79,8 @@ mod tests {
     use super::*;
 
     fn found(line: &str) -> Vec<String> {
-        let others = [PathBuf::from("/root")];
-        let all = imported(line, Path::new("/root/pkg"), &others);
+        let others = [PathBuf::from("code")];
+        let all = imported(line, Path::new("code/pkg"), &others);
         all.iter().map(|it| it.display().to_string()).collect()
     }
 
@@ -89,24 +89,24 @@ mod tests {
         assert_eq!(
             found("import a.b as c, d  # import e"),
             [
-                "/root/pkg/a.py",
-                "/root/pkg/a/__init__.py",
-                "/root/pkg/a/b.py",
-                "/root/pkg/a/b/__init__.py",
-                "/root/a.py",
-                "/root/a/__init__.py",
-                "/root/a/b.py",
-                "/root/a/b/__init__.py",
-                "/root/pkg/d.py",
-                "/root/pkg/d/__init__.py",
-                "/root/d.py",
-                "/root/d/__init__.py",
+                "code/pkg/a.py",
+                "code/pkg/a/__init__.py",
+                "code/pkg/a/b.py",
+                "code/pkg/a/b/__init__.py",
+                "code/a.py",
+                "code/a/__init__.py",
+                "code/a/b.py",
+                "code/a/b/__init__.py",
+                "code/pkg/d.py",
+                "code/pkg/d/__init__.py",
+                "code/d.py",
+                "code/d/__init__.py",
             ]
         );
-        assert_eq!(found("    from . import (a)").last().unwrap(), "/root/pkg/a/__init__.py");
+        assert_eq!(found("    from . import (a)").last().unwrap(), "code/pkg/a/__init__.py");
         let above = found("from ..law import P");
-        assert!(above.contains(&"/root/law.py".to_owned()), "{above:?}");
-        assert!(above.contains(&"/root/__init__.py".to_owned()), "{above:?}");
+        assert!(above.contains(&"code/law.py".to_owned()), "{above:?}");
+        assert!(above.contains(&"code/__init__.py".to_owned()), "{above:?}");
         for line in [
             "",
             "# import a",

@@ -130,7 +130,7 @@ impl Instructions {
     }
 
     /// Does work with these instructions, or with the baseline in builds with debug assertions. Such programs may be slow, and a
-    /// second version of every batch and of every step of a solver would double the time to compile them.
+    /// second version of every batch and of every step of a solver would nearly double the time to compile them.
     #[inline]
     pub fn run<T: Float, W: Work<T>>(self, work: W) -> W::Output {
         #[cfg(all(debug_assertions, not(test)))]

@@ -11,7 +11,7 @@ use mms_files::machine::{processor, processors};
 use mms_files::results::Disk;
 use mms_judge::Judgements;
 use mms_judge::diagnose::{
-    Alone, Reading as Looking, diagnose as named, falls, find, keep_own, left_out, read,
+    Alone, Reading as Looking, diagnosis_of, falls, find, keep_own, left_out, read,
 };
 use mms_judge::results::{Comparison, Over, Reading, Results, Start, axes, measure, own_roles};
 use mms_judge::table::ExpectedOrders;
@@ -246,7 +246,7 @@ fn diagnose(
             _ => None,
         };
         let solver = Solver { without, like: None, falls, is_compared_with_right_run: false };
-        let (diagnosis, question) = named(&exact, &evidence, &solver, follower)?;
+        let (diagnosis, question) = diagnosis_of(&exact, &scene, &evidence, &solver, follower)?;
         let provenance = provenance("diagnose", opened);
         let input = &opened.input;
         let (diagnosis, next) = (&diagnosis, None);

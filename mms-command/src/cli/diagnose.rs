@@ -18,7 +18,7 @@ use mms_exact::Exact;
 use mms_exact::{Input, evaluated};
 use mms_files::results::Disk;
 use mms_judge::diagnose::{
-    Alone, Reading, diagnose, falls, find, gradients, keep_own, left_out, read,
+    Alone, Reading, diagnosis_of, falls, find, gradients, keep_own, left_out, read,
 };
 use mms_judge::next::{self, Meshes};
 use mms_judge::table::{ExpectedOrders, NamedOrder};
@@ -260,7 +260,8 @@ impl Diagnose {
             _ => None,
         };
         let solver = Solver { without, like, falls, is_compared_with_right_run: !right.is_empty() };
-        let (diagnosis, question) = diagnose(&exact, &evidence, &solver, &StatusLine::new())?;
+        let (diagnosis, question) =
+            diagnosis_of(&exact, &scene, &evidence, &solver, &StatusLine::new())?;
         let input = exact.input();
         let meshes = self.meshes(reading.rest);
         let next = next::after_diagnosis(&diagnosis, &meshes, &typed());

@@ -19,6 +19,7 @@ use mms_diagnosis::table::Measure;
 use mms_results::mesh::Mesh;
 use mms_results::names::{Form, Meaning, Names, Profile, Role, Values, recognise, wanted};
 use mms_results::{Files, Snapshot, Stored};
+use mms_runtime::scene::Scene;
 use mms_spec::quantity;
 
 pub use self::judged::falls;
@@ -123,12 +124,13 @@ pub fn keep_own(all: &mut [Results], is_static: bool) -> anyhow::Result<()> {
     })
 }
 
-/// Diagnoses evidence, and asks about a parameter of the field if results with an error fit another value of it much better.
+/// Diagnoses evidence about a field in a scene, and asks about a parameter of the field if results with an error fit another value of it much better.
 ///
 /// # Errors
 /// The obstacles of a diagnosis; a quantity that is too large to derive.
-pub fn diagnose(
+pub fn diagnosis_of(
     exact: &Exact,
+    scene: &Scene<f64>,
     evidence: &Evidence,
     solver: &Solver,
     follow: &dyn Follow,
@@ -136,7 +138,7 @@ pub fn diagnose(
     let factors = Factors::new(exact);
     let times = |parameter, factor| factors.times(parameter, factor);
     let material = Material { names: factors.names(), times: &times };
-    let diagnosis = scene::diagnose(&exact.scene()?, evidence, solver, &material, follow)?;
+    let diagnosis = scene::diagnose(scene, evidence, solver, &material, follow)?;
     let question = question(diagnosis.finding, evidence, exact)?;
     Ok((diagnosis, question))
 }

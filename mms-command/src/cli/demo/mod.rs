@@ -30,7 +30,7 @@ use mms_exact::{Exact, Input, settings};
 use mms_files::shell::quoted;
 use mms_files::write::write_own;
 use mms_judge::Judgements;
-use mms_judge::diagnose::{Reading, diagnose as named, falls, find, read};
+use mms_judge::diagnose::{Reading, diagnosis_of, falls, find, read};
 use mms_judge::results::{self, Comparison, measure};
 use mms_judge::table::ExpectedOrders;
 use mms_options::field::open;
@@ -222,7 +222,7 @@ fn diagnose(tables: &Tables, exact: &mut Exact) -> anyhow::Result<Diagnosis> {
         falls,
         is_compared_with_right_run: false,
     };
-    Ok(named(exact, &evidence, &solver, &Unfollowed)?.0)
+    Ok(diagnosis_of(exact, &exact.scene()?, &evidence, &solver, &Unfollowed)?.0)
 }
 
 /// The sentence of a verdict.
