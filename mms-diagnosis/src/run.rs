@@ -47,6 +47,8 @@ pub enum Obstacle {
     Refused(Refusal),
     /// The error of the method that the user named falls with this order on this field, or, if `None`, a run of it stops.
     Diverges(Option<f64>),
+    /// Every method of the built-in solver stops on this field.
+    AllStop,
     /// The follower has ended the diagnosis.
     Stopped,
 }
@@ -98,6 +100,12 @@ impl fmt::Display for Obstacle {
                 f,
                 "this method stops on this field, so it is no standard for your results: expected a method that converges"
             ),
+            Obstacle::AllStop => {
+                write!(
+                    f,
+                    "every method of the built-in solver stops on this field, on a grid no finer than yours"
+                )
+            }
             Obstacle::Stopped => write!(f, "stopped on request"),
             Obstacle::TooManySteps(steps) => write!(
                 f,
@@ -263,6 +271,11 @@ where
         }));
         let samplings = methods.iter().map(|_| OnceLock::new()).collect();
         Ok(SolverRuns { exact, frame, mesh, without, cells, methods, samplings })
+    }
+
+    /// Whether cells that are twice as large are small enough for results of their size.
+    pub fn may_be_coarser(&self) -> bool {
+        self.cells.div_ceil(2) >= CELLS[D - 1][0]
     }
 
     /// The cells along each axis: nearly cubes, with the last one ending at the end of the body.
