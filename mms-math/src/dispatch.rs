@@ -17,9 +17,8 @@ pub trait Work<T> {
     /// The result.
     type Output;
 
-    /// Whether the work is faster with AVX-512 than with AVX2. If not, there is no version for AVX-512, and the one for AVX2 is
-    /// used.
-    const GAINS_BY_AVX512: bool = true;
+    /// The last instruction set that makes the work faster. No version is compiled for a later one.
+    const WIDEST: IsaLevel = IsaLevel::Avx512;
 
     /// Does the work, with loops over `M::Lane` and eight numbers at a time. All called functions have to be inlined, or they
     /// are not compiled for the instruction set.
@@ -40,12 +39,15 @@ pub const LIMIT: &str = "MMS_INSTRUCTIONS";
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Instructions(IsaLevel);
 
-/// From the least to the most.
+/// The instruction sets that work is compiled for, from the least to the most.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
-enum IsaLevel {
+pub enum IsaLevel {
+    /// The instructions that every processor of this kind has.
     Baseline,
+    /// AVX2 and FMA: four numbers of double precision in a register.
     Avx2,
+    /// AVX-512: eight.
     Avx512,
 }
 
@@ -56,6 +58,10 @@ const USUAL: &[IsaLevel] =
     if cfg!(all(debug_assertions, not(test))) { &[IsaLevel::Baseline] } else { &LEVELS };
 
 impl IsaLevel {
+    const fn reaches(self, other: IsaLevel) -> bool {
+        self as u8 >= other as u8
+    }
+
     const fn name(self) -> &'static str {
         match self {
             IsaLevel::Baseline => "baseline",
@@ -146,11 +152,15 @@ impl Instructions {
             // Safety: the processor has the instructions that the function is compiled for, or there would be no such value.
             #[cfg(all(target_arch = "x86_64", not(debug_assertions)))]
             #[allow(unsafe_code)]
-            IsaLevel::Avx512 if W::GAINS_BY_AVX512 => unsafe { avx512(work) },
+            IsaLevel::Avx512 if const { W::WIDEST.reaches(IsaLevel::Avx512) } => unsafe {
+                avx512(work)
+            },
             // Safety: likewise; a processor with AVX-512 has AVX2.
             #[cfg(target_arch = "x86_64")]
             #[allow(unsafe_code)]
-            IsaLevel::Avx2 | IsaLevel::Avx512 => unsafe { avx2(work) },
+            IsaLevel::Avx2 | IsaLevel::Avx512 if const { W::WIDEST.reaches(IsaLevel::Avx2) } => unsafe {
+                avx2(work)
+            },
             _ => baseline(work),
         }
     }

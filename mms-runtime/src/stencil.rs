@@ -30,6 +30,7 @@ mod tensor;
 
 use std::ops::Range;
 
+use mms_math::dispatch::IsaLevel;
 use mms_math::simd::Simd;
 
 use crate::column::{HALF, PACK};
@@ -145,8 +146,8 @@ pub enum Wanted {
 
 /// The nodes of a pack of particles.
 pub trait Stencil<T: Real, const D: usize>: Clone + Default + Send + Sync {
-    /// Whether the sums, and the search for the weights, are faster with AVX-512 than with AVX2.
-    const GAINS_BY_AVX512: bool;
+    /// The last instruction set that makes the sums, and the search for the weights, faster.
+    const WIDEST: IsaLevel;
 
     /// Calls `visit(i, w_ip, grad w_ip)` for every node i of one of the particles. If a node is visited more than once, its
     /// weights add up.

@@ -1,6 +1,6 @@
 //! From nodes to particles (G2P): velocity, displacement, deformation.
 
-use mms_math::dispatch::{Work, best};
+use mms_math::dispatch::{IsaLevel, Work, best};
 use mms_math::simd::{Plain, Simd};
 
 use super::faults;
@@ -62,7 +62,7 @@ where
     St: Stencil<T, D>,
 {
     type Output = Result<IsProvedSound, (usize, Cause)>;
-    const GAINS_BY_AVX512: bool = St::GAINS_BY_AVX512;
+    const WIDEST: IsaLevel = St::WIDEST;
 
     #[inline(always)]
     fn on<M: Simd<T>>(self, simd: M) -> Self::Output {
@@ -289,7 +289,7 @@ where
     St: Stencil<T, D>,
 {
     type Output = Result<IsProvedSound, (usize, Cause)>;
-    const GAINS_BY_AVX512: bool = St::GAINS_BY_AVX512;
+    const WIDEST: IsaLevel = St::WIDEST;
 
     #[inline(always)]
     fn on<M: Simd<T>>(self, simd: M) -> Self::Output {

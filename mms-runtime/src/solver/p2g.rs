@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use mms_math::dispatch::{Work, best};
+use mms_math::dispatch::{IsaLevel, Work, best};
 use mms_math::simd::{Plain, Simd};
 
 use super::clock::{Laps, Seconds};
@@ -210,7 +210,7 @@ struct Scatter<'a, T: Real, const D: usize, St> {
 
 impl<T: Real, const D: usize, St: Stencil<T, D>> Work<T> for Scatter<'_, T, D, St> {
     type Output = Result<(), SlabError>;
-    const GAINS_BY_AVX512: bool = St::GAINS_BY_AVX512;
+    const WIDEST: IsaLevel = St::WIDEST;
 
     #[inline(always)]
     fn on<M: Simd<T>>(self, simd: M) -> Self::Output {

@@ -4,7 +4,7 @@
 //! the particles is compiled once for all stencils that are products of weights along the axes, and once for the corners of
 //! `cpdi`.
 
-use mms_math::dispatch::{Work, best};
+use mms_math::dispatch::{IsaLevel, Work, best};
 use mms_math::simd::Simd;
 
 use super::g2p::{Advance, IsProvedSound, Residual};
@@ -169,7 +169,7 @@ struct Weights<'a, T: Real, const D: usize, S: Shape> {
 
 impl<T: Real, const D: usize, S: Shape> Work<T> for &mut Weights<'_, T, D, S> {
     type Output = Result<(), (usize, Cause)>;
-    const GAINS_BY_AVX512: bool = S::Stencil::<T, D>::GAINS_BY_AVX512;
+    const WIDEST: IsaLevel = S::Stencil::<T, D>::WIDEST;
 
     #[inline(always)]
     fn on<M: Simd<T>>(self, simd: M) -> Self::Output {

@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use mms_math::dispatch::Work;
+use mms_math::dispatch::{IsaLevel, Work};
 use mms_math::simd::Simd;
 
 use super::gather::{Summed, Sums};
@@ -383,8 +383,13 @@ impl<T: Real, const D: usize> Default for ProductStencil<T, D> {
 }
 
 impl<T: Real, const D: usize> Stencil<T, D> for ProductStencil<T, D> {
-    // A register of AVX2 holds eight numbers of single precision, and a single row of nodes has little to sum.
-    const GAINS_BY_AVX512: bool = D > 1 && size_of::<T>() == size_of::<f64>();
+    const WIDEST: IsaLevel = match D {
+        // A single row of nodes has little to sum.
+        1 => IsaLevel::Baseline,
+        // A register of AVX2 holds eight numbers of single precision.
+        _ if size_of::<T>() < size_of::<f64>() => IsaLevel::Avx2,
+        _ => IsaLevel::Avx512,
+    };
 
     fn each(&self, particle: usize, mut visit: impl FnMut(usize, T, Vector<T, D>)) {
         let width = |a: usize| if a < D { self.width } else { 1 };
