@@ -4,8 +4,8 @@
 //! the results. It is measured as the error of the results is: a root mean square over the body, the largest over times. For a
 //! field without time it is the error that the mistake adds [at equilibrium](crate::statics).
 //!
-//! Each mistake is first tried on a grid of twice the cell size, where a run takes a quarter of the time or less. If its error
-//! is [far](UNSURE) from the noticed one there, that decides. A size is searched for there, and then corrected.
+//! Each mistake is first tried with cells of twice the size, if they are not too few. A run then takes a quarter of the time or
+//! less. If a mistake has no size, and its error is far from the noticed one, that decides. A size is corrected on the finer grid.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use crate::exact::{Exact, Quantity};
 use crate::hypothesis::{Hypothesis, HypothesisKind, Size, title};
 use crate::level::on_all_processors;
 use crate::run::{Obstacle, Responses, SolverRuns, written};
-use crate::smooth::{Smooth, less};
+use crate::smooth::{self, Smooth, less};
 use crate::statics::{Equilibrium, Statics};
 
 /// Results with known errors.
@@ -90,7 +90,7 @@ struct Runs<'a, const D: usize> {
     exact: &'a Exact<'a, D>,
     frame: &'a ComparisonFrame<D>,
     mesh: &'a Mesh,
-    /// Each is on a finer grid than the one before.
+    /// From the coarsest grid to the finest.
     solvers: Vec<Solvers<'a, D>>,
     errors: &'a [(Quantity, f64)],
 }
@@ -107,7 +107,7 @@ impl<'a, const D: usize> Solvers<'a, D>
 where
     f64: Solve<D>,
 {
-    /// The solvers to try a mistake with, from the coarsest grid to the finest.
+    /// Plans the runs, from the coarsest grid to the finest.
     fn all(
         exact: &'a Exact<'a, D>,
         frame: &'a ComparisonFrame<D>,
@@ -125,11 +125,18 @@ where
         // Linear functions stop where a curved face cuts off a small part of a cell.
         let mut methods = 0..plan.methods();
         let first = methods.find_map(|method| Some((method, plan.right(method)?)));
-        let (method, right) = first.ok_or(Obstacle::AllStop)?;
-        let coarse = plan.may_be_coarser().then(|| plan.coarser());
-        let coarse = coarse.and_then(|plan| {
-            let right = plan.right(method)?;
-            Some(Solvers::Runs { plan, method, right })
+        let (method, right) = match first {
+            Some(first) => first,
+            None if exact.follow.is_stopped() => return Err(Obstacle::Stopped),
+            None => return Err(Obstacle::AllStop),
+        };
+        let coarse = plan.may_be_coarser().then(|| plan.coarser()).and_then(|plan| {
+            let coarse = plan.right(method)?;
+            let mut pairs = coarse.iter().zip(&right);
+            // A run that nearly stops has errors of its own.
+            let is_sound =
+                pairs.all(|(coarse, fine)| smooth::size(coarse) <= UNSURE * smooth::size(fine));
+            is_sound.then_some(Solvers::Runs { plan, method, right: coarse })
         });
         let fine = Solvers::Runs { plan: Box::new(plan), method, right };
         Ok(coarse.into_iter().chain([fine]).collect())
@@ -150,7 +157,7 @@ where
 /// Lists for each hypothesis whether a study of a field excludes it.
 ///
 /// # Errors
-/// Runs that would take too long, or that stop without a mistake.
+/// Runs that would take too long, or that stop without a mistake, by each method.
 pub fn excluded<const D: usize>(
     exact: &Exact<'_, D>,
     study: &Study,
@@ -227,9 +234,19 @@ where
                 times => VisibleSizes::Always(times),
             };
         };
-        let axes = (0..right.len()).map(|axis| self.least(hypothesis, axis, first[axis]));
+        let least = |axis: usize| {
+            let first = first[axis] - right[axis];
+            let farthest = FARTHEST * first.abs();
+            self.solvers.iter().fold(first, |step, solvers| match step.is_infinite() {
+                true => step,
+                false => {
+                    let step = step.clamp(-farthest, farthest);
+                    self.least(solvers, hypothesis, (right, axis), step)
+                }
+            })
+        };
         // For a vector, the size that is shown in every direction.
-        let least = axes.fold(0.0, f64::max);
+        let least = (0..right.len()).map(|axis| least(axis).abs()).fold(0.0, f64::max);
         let farthest = hypothesis.farthest();
         match least < farthest {
             true => VisibleSizes::From { right: right[0], least },
@@ -239,35 +256,23 @@ where
         }
     }
 
-    /// The least difference from the right size along an axis that is shown, infinite if the mistake adds nothing at any size.
-    fn least(&self, hypothesis: &Hypothesis<D>, axis: usize, first: f64) -> f64 {
-        let Size::Any { right, .. } = &hypothesis.size else { return 0.0 };
-        let step = first - right[axis];
-        let searched = |least: f64, solvers: &Solvers<'_, D>| match least.is_infinite() {
-            true => least,
-            false => self.searched(solvers, hypothesis, axis, least.copysign(step)),
-        };
-        self.solvers.iter().fold(step, searched)
-    }
-
-    /// Searches for the least difference that is shown, starting from a first estimate. The next ones assume that the error is
-    /// proportional to the difference.
-    fn searched(
+    /// The least difference from the right size along an axis that is shown, in the direction of `step`, the first estimate;
+    /// infinite if the mistake adds nothing at any size. Later estimates assume that the error is proportional to the difference.
+    fn least(
         &self,
         solvers: &Solvers<'_, D>,
         hypothesis: &Hypothesis<D>,
-        axis: usize,
+        (right, axis): (&[f64], usize),
         mut step: f64,
     ) -> f64 {
-        let Size::Any { right, .. } = &hypothesis.size else { return 0.0 };
         let mut last = f64::INFINITY;
         for _ in 0..ROUNDS {
-            let mut at = right.clone();
+            let mut at = right.to_vec();
             at[axis] += step;
             match self.times(solvers, hypothesis, &at) {
                 Some(times) if times > 0.0 => {
                     let times = times / NOTICED;
-                    last = step.abs() / times;
+                    last = step / times;
                     if (times - 1.0).abs() < NEAR {
                         break;
                     }
@@ -276,7 +281,7 @@ where
                 }
                 Some(_) => return f64::INFINITY,
                 // So large a mistake stops the solver.
-                None => (step, last) = (step / FARTHEST, step.abs()),
+                None => (step, last) = (step / FARTHEST, step),
             }
         }
         last
@@ -307,8 +312,8 @@ where
     }
 }
 
-/// On a grid of twice the cell size, the error of a mistake is at most this many times as large, if it falls with h^3 or more
-/// slowly.
+/// The factor around the noticed error within which larger cells do not decide. An error that falls with h^3 is this many times
+/// as large on cells of twice the size.
 const UNSURE: f64 = 8.0;
 /// The most runs in the search for a size.
 const ROUNDS: usize = 3;

@@ -47,7 +47,7 @@ pub enum Obstacle {
     Refused(Refusal),
     /// The error of the method that the user named falls with this order on this field, or, if `None`, a run of it stops.
     Diverges(Option<f64>),
-    /// Every method of the built-in solver stops on this field.
+    /// Every method of the built-in solver that was tried stops on this field.
     AllStop,
     /// The follower has ended the diagnosis.
     Stopped,
@@ -103,7 +103,7 @@ impl fmt::Display for Obstacle {
             Obstacle::AllStop => {
                 write!(
                     f,
-                    "every method of the built-in solver stops on this field, on a grid no finer than yours"
+                    "every method that `mms` tried stops on this field, on a grid no finer than yours"
                 )
             }
             Obstacle::Stopped => write!(f, "stopped on request"),
@@ -273,7 +273,7 @@ where
         Ok(SolverRuns { exact, frame, mesh, without, cells, methods, samplings })
     }
 
-    /// Whether cells that are twice as large are small enough for results of their size.
+    /// Whether half as many cells along an edge are still enough.
     pub fn may_be_coarser(&self) -> bool {
         self.cells.div_ceil(2) >= CELLS[D - 1][0]
     }

@@ -17,7 +17,7 @@ pub trait Work<T> {
     /// The result.
     type Output;
 
-    /// The last instruction set that makes the work faster. No version is compiled for a later one.
+    /// The last instruction set that makes the work faster; [`run`](Instructions::run) has no version for later ones.
     const WIDEST: IsaLevel = IsaLevel::Avx512;
 
     /// Does the work, with loops over `M::Lane` and eight numbers at a time. All called functions have to be inlined, or they

@@ -20,8 +20,8 @@
 //! compiles it without the processor's vector instructions. Packs begin at every eighth particle for any slabs and threads; a
 //! slab adds only its own particles of a pack. The last pack is padded with copies of the last particle.
 //!
-//! On x86-64 without AVX2, eight particles at a time are not faster. There `alone.rs` sums particle by particle, in little
-//! code, since few users still have such processors.
+//! On x86-64 without AVX2, and in one dimension, eight particles at a time are not faster. There `alone.rs` sums particle by
+//! particle, in little code.
 
 mod alone;
 mod gather;

@@ -464,11 +464,11 @@ fn walls_that_are_late_explain_most() {
 
 #[test]
 fn what_a_small_error_excludes_would_make_a_larger_one() {
-    let exact = exact(&LOADED, 12.0);
+    let exact = exact(&LOADED, 16.0);
     let right = Mistaken { moduli: [LAMBDA, MU], force: field::body_force, delay: 0.0, load: 1.0 };
     let (own, error) = (solved(&right), 2e-4);
     let study = Study {
-        cell_size: 1.0 / 12.0,
+        cell_size: 1.0 / 16.0,
         time_step: None,
         times: vec![0.03],
         errors: vec![(Quantity::Displacement, error)],

@@ -1,5 +1,5 @@
-//! The sums for one particle at a time, for processors without larger registers. The loops over nodes are compiled once for all
-//! widths, since code for these slow processors should be small. They multiply each particle's numbers in the same order as
+//! The sums for one particle at a time, where larger registers are missing or not faster. The loops over nodes are compiled once
+//! for all widths, so that this code is small. They multiply each particle's numbers in the same order as
 //! [`scatter`](super::scatter) and [`gather`](super::gather).
 
 use super::gather::{Summed, Sums};
