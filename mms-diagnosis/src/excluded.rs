@@ -235,18 +235,19 @@ where
             };
         };
         let least = |axis: usize| {
-            let first = first[axis] - right[axis];
-            let farthest = FARTHEST * first.abs();
-            self.solvers.iter().fold(first, |step, solvers| match step.is_infinite() {
-                true => step,
-                false => {
-                    let step = step.clamp(-farthest, farthest);
-                    self.least(solvers, hypothesis, (right, axis), step)
+            let mut step = first[axis] - right[axis];
+            let farthest = FARTHEST * step.abs();
+            for solvers in &self.solvers {
+                let from = step.clamp(-farthest, farthest);
+                step = self.least(solvers, hypothesis, (right, axis), from);
+                if step.is_infinite() {
+                    break;
                 }
-            })
+            }
+            step.abs()
         };
         // For a vector, the size that is shown in every direction.
-        let least = (0..right.len()).map(|axis| least(axis).abs()).fold(0.0, f64::max);
+        let least = (0..right.len()).map(least).fold(0.0, f64::max);
         let farthest = hypothesis.farthest();
         match least < farthest {
             true => VisibleSizes::From { right: right[0], least },

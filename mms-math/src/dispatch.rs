@@ -135,8 +135,9 @@ impl Instructions {
         }
     }
 
-    /// Does work with these instructions, or with the baseline in builds with debug assertions. Such programs may be slow, and a
-    /// second version of every batch and of every step of a solver would nearly double the time to compile them.
+    /// Does work with these instructions, but none beyond [`Work::WIDEST`]. In builds with debug assertions it uses the baseline:
+    /// such programs may be slow, and a second version of every batch and of every step of a solver would nearly double the time
+    /// to compile them.
     #[inline]
     pub fn run<T: Float, W: Work<T>>(self, work: W) -> W::Output {
         #[cfg(all(debug_assertions, not(test)))]

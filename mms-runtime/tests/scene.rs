@@ -17,6 +17,7 @@ fn functions() -> Vec<(String, u64)> {
     symbols.filter_map(|it| Some((it.name().ok()?.to_owned(), it.size()))).collect()
 }
 
+/// Takes one step of a field with the shape function and the integrator of the scene.
 fn step<const D: usize>(field: &dyn ManufacturedField<f64, D>) {
     let (updated, setup) = (FormulationName::Updated, Setup::default());
     let solver = Solver::<f64, D, _>::new::<Cpgimp>(field, updated, &setup, &16.into());
@@ -44,10 +45,13 @@ fn a_bar_needs_the_solver_of_a_bar() {
     assert!(!named(&["mms_runtime"]).is_empty(), "names are there");
     // In the names of symbols, the length of a part is before it.
     let (passes, sums) = (4, 2 * (2 + 3));
-    // With more optimisation they are inlined.
+    // With more optimisation the passes are inlined.
     if cfg!(debug_assertions) {
         let kernels = named(&["8dispatch8baseline"]);
         assert_eq!(kernels.len(), passes, "{kernels:?}");
+        // One sum onto nodes, and one over them.
+        let kernels = named(&["7stencil5alone", "_alone"]);
+        assert_eq!(kernels.len(), 2, "{kernels:?}");
     }
     let kernels = named(&["Plain", "5apart"]);
     assert!(kernels.is_empty(), "{kernels:?}");
